@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "ism/core/geometry.hpp"
+#include "ism/core/image.hpp"
+
+namespace ism {
+
+/// @brief Stands for "no depth reading".
+inline constexpr float no_depth = std::numeric_limits<float>::quiet_NaN();
+
+/// @brief Whether a depth in metres is a reading (finite and in front of the camera).
+[[nodiscard]] inline bool is_depth(double depth_m) {
+    return std::isfinite(depth_m) && depth_m > 0;
+}
+
+/// @brief A pinhole camera without distortion: focal lengths and principal point, pixels.
+struct Camera {
+    double fx = 0, fy = 0, cx = 0, cy = 0;
+    [[nodiscard]] constexpr bool operator==(const Camera&) const = default;
+};
+
+/// @brief Passes `camera` on.
+/// @throws Error where a focal length is not a positive number or the principal point not finite.
+[[nodiscard]] inline Camera checked(const Camera& camera) {
+    expect(std::isfinite(camera.fx) && std::isfinite(camera.fy) && camera.fx > 0 && camera.fy > 0,
+           "camera focal lengths fx, fy", "positive pixels", join_text(camera.fx, ", ", camera.fy));
+    expect(std::isfinite(camera.cx) && std::isfinite(camera.cy), "camera principal point cx, cy",
+           "finite pixels", join_text(camera.cx, ", ", camera.cy));
+    return camera;
+}
+
+/// @brief The point in the camera frame that is seen at `pixel` and lies `depth_m` along the optical axis.
+[[nodiscard]] inline Point3 back_project(const Camera& camera, Point2 pixel, double depth_m) {
+    return {(pixel.x - camera.cx) / camera.fx * depth_m, (pixel.y - camera.cy) / camera.fy * depth_m,
+            depth_m};
+}
+
+/// @brief The pixel at which a point of the camera frame (metres, z > 0) is seen.
+[[nodiscard]] inline Point2 project(const Camera& camera, const Point3& point_m) {
+    return {camera.fx * point_m.x / point_m.z + camera.cx, camera.fy * point_m.y / point_m.z + camera.cy};
+}
+
+/// @brief A depth camera's units as metres; 0 stays 0, no reading.
+/// @throws Error where `metres_per_unit` is not a positive number.
+[[nodiscard]] inline DepthMap to_metres(ImageView<const std::uint16_t> raw, double metres_per_unit) {
+    expect(std::isfinite(metres_per_unit) && metres_per_unit > 0, "depth scale (metres per unit)",
+           "a positive number", metres_per_unit);
+    DepthMap depth_m(raw.width(), raw.height());
+    for (int y = 0; y < raw.height(); ++y)
+        for (int x = 0; x < raw.width(); ++x) depth_m(x, y) = float(raw(x, y) * metres_per_unit);
+    return depth_m;
+}
+
+}  // namespace ism
