@@ -24,14 +24,13 @@ struct Camera {
     [[nodiscard]] constexpr bool operator==(const Camera&) const = default;
 };
 
-/// @brief Passes `camera` on.
+/// @brief Does nothing where `camera` can be used.
 /// @throws Error where a focal length is not a positive number or the principal point not finite.
-[[nodiscard]] inline Camera checked(const Camera& camera) {
+inline void check(const Camera& camera) {
     expect(std::isfinite(camera.fx) && std::isfinite(camera.fy) && camera.fx > 0 && camera.fy > 0,
            "camera focal lengths fx, fy", "positive pixels", join_text(camera.fx, ", ", camera.fy));
     expect(std::isfinite(camera.cx) && std::isfinite(camera.cy), "camera principal point cx, cy",
            "finite pixels", join_text(camera.cx, ", ", camera.cy));
-    return camera;
 }
 
 /// @brief The point in the camera frame that is seen at `pixel` and lies `depth_m` along the optical axis.

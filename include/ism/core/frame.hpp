@@ -18,10 +18,10 @@ struct Frame {
     std::optional<Camera> camera = {};
 };
 
-/// @brief Passes `frame` on.
+/// @brief Does nothing where `frame` can be used.
 /// @throws Error where the image is smaller than 16×16, the depth is of another size or without a single
 /// reading, or the camera is not one.
-[[nodiscard]] inline Frame checked(Frame frame) {
+inline void check(const Frame& frame) {
     expect(frame.gray.width() >= 16 && frame.gray.height() >= 16, "image size", "at least 16x16",
            size_text(frame.gray));
     for (const float value : frame.gray.pixels())
@@ -33,8 +33,7 @@ struct Frame {
         for (const float value : frame.depth_m.pixels()) any = any || is_depth(value);
         expect(any, "depth image", "at least one reading above 0", "none");
     }
-    if (frame.camera) frame.camera = checked(*frame.camera);
-    return frame;
+    if (frame.camera) check(*frame.camera);
 }
 
 }  // namespace ism

@@ -28,9 +28,15 @@ struct Box {
     double x = 0, y = 0, width = 0, height = 0;
 
     [[nodiscard]] constexpr double area() const { return width * height; }
-    [[nodiscard]] constexpr Point2 centre() const { return {x + width / 2, y + height / 2}; }
+    /// @brief The middle, where (as for features) a pixel's coordinates are those of its centre.
+    [[nodiscard]] constexpr Point2 centre() const { return {x + (width - 1) / 2, y + (height - 1) / 2}; }
     [[nodiscard]] constexpr bool operator==(const Box&) const = default;
 };
+
+/// @brief The box of a size around a centre; the reverse of Box::centre.
+[[nodiscard]] constexpr Box box_around(Point2 centre, double width, double height) {
+    return {centre.x - (width - 1) / 2, centre.y - (height - 1) / 2, width, height};
+}
 
 /// @brief Where two boxes overlap; without area where they do not.
 [[nodiscard]] constexpr Box intersection(const Box& a, const Box& b) {
