@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+
+# What our own tests, examples and benchmarks share; nothing of it reaches users of ism::ism.
+if(PROJECT_IS_TOP_LEVEL)
+    set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+    set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+    if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+        set(CMAKE_BUILD_TYPE Release CACHE STRING "Kind of build" FORCE)
+    endif()
+endif()
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+add_library(ism_dev_options INTERFACE)
+target_compile_options(ism_dev_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
+if(ISM_WERROR)
+    target_compile_options(ism_dev_options INTERFACE -Werror)
+endif()
+if(ISM_NATIVE)
+    target_compile_options(ism_dev_options INTERFACE -march=native)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+        # gcc 12 warns of its own AVX-512 header (bug 105593); builds without -march=native keep the warning.
+        target_compile_options(ism_dev_options INTERFACE -Wno-maybe-uninitialized)
+    endif()
+endif()
+target_include_directories(ism_dev_options INTERFACE "${PROJECT_SOURCE_DIR}/examples")
+target_link_libraries(ism_dev_options INTERFACE ism::ism)
+
+# stb's implementation, compiled once. An archive: a program that compiles its own copy does not clash with it.
+if(EXISTS "${PROJECT_SOURCE_DIR}/include/ism/io/stb_implementation.hpp")
+    add_library(ism_stb STATIC EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/tests/support/stb.cpp")
+    target_link_libraries(ism_stb PRIVATE ism::ism)
+else()
+    add_library(ism_stb INTERFACE)
+endif()
+
+# Catch2, version 2.13 or 3, and our own main: Debian's prebuilt main lacks the benchmark half.
+function(ism_find_catch2)
+    if(NOT TARGET Catch2::Catch2)
+        find_package(Catch2 QUIET)
+    endif()
+    if(NOT TARGET Catch2::Catch2)
+        message(FATAL_ERROR "Catch2 2.13 or newer is needed for tests and benchmarks: run scripts/install_dependencies, "
+                            "or set ISM_FETCH_DEPENDENCIES, or switch ISM_BUILD_TESTS and ISM_BUILD_BENCHMARKS off")
+    endif()
+    foreach(name ism_catch_main ism_catch_benchmark_main)
+        if(NOT TARGET ${name})
+            add_library(${name} OBJECT EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/tests/support/main.cpp")
+            target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}/tests")
+            target_compile_features(${name} PUBLIC cxx_std_20)
+            target_link_libraries(${name} PUBLIC Catch2::Catch2)
+            target_compile_options(${name} PRIVATE -O1)
+        endif()
+    endforeach()
+    target_compile_definitions(ism_catch_benchmark_main PUBLIC CATCH_CONFIG_ENABLE_BENCHMARKING)
+endfunction()

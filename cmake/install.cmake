@@ -1,0 +1,24 @@
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+
+# `cmake --install <build>` gives a package: find_package(ism 0.1) → ism::ism.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/ism")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/ism" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+        COMPONENT ism_development FILES_MATCHING PATTERN "*.hpp")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/licenses/ism"
+        COMPONENT ism_development)
+
+install(TARGETS ism EXPORT ism_targets)
+install(EXPORT ism_targets FILE ism-targets.cmake NAMESPACE ism:: DESTINATION "${package_dir}"
+        COMPONENT ism_development)
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/ism-config.cmake.in" "${PROJECT_BINARY_DIR}/ism-config.cmake"
+                              INSTALL_DESTINATION "${package_dir}")
+# Below 1.0 a new minor version may break what was written for the one before.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/ism-config-version.cmake"
+                                 COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+install(FILES "${PROJECT_BINARY_DIR}/ism-config.cmake" "${PROJECT_BINARY_DIR}/ism-config-version.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/ism_dependencies.cmake"
+        DESTINATION "${package_dir}" COMPONENT ism_development)

@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+cmake_minimum_required(VERSION 3.25)
+
+# WAY is find_package or add_subdirectory: installs where needed, then configures, builds and runs tests/consumer/WAY.
+function(step what)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "consumer by ${WAY}, ${what}: failed\n${output}")
+    endif()
+    message(STATUS "consumer by ${WAY}, ${what}: ok")
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${SCRATCH}")
+set(arguments "-DISM_SOURCE=${ISM_SOURCE}")
+if(WAY STREQUAL "find_package")
+    step("install" "${CMAKE_COMMAND}" --install "${ISM_BUILD}" --prefix "${SCRATCH}/prefix" --component ism_development)
+    # Moved after it was installed: the package holds no path of where it was built.
+    file(RENAME "${SCRATCH}/prefix" "${SCRATCH}/moved")
+    file(GLOB_RECURSE installed "${SCRATCH}/moved/*.cmake")
+    foreach(file IN LISTS installed)
+        file(READ "${file}" content)
+        foreach(path "${ISM_SOURCE}" "${ISM_BUILD}" "${SCRATCH}")
+            string(FIND "${content}" "${path}" position)
+            if(NOT position EQUAL -1)
+                message(FATAL_ERROR "${file}: expected no path of the build machine, got ${path}")
+            endif()
+        endforeach()
+    endforeach()
+    list(APPEND arguments "-DCMAKE_PREFIX_PATH=${SCRATCH}/moved" "-DISM_VERSION=${VERSION}")
+endif()
+step("configure" "${CMAKE_COMMAND}" -S "${ISM_SOURCE}/tests/consumer/${WAY}" -B "${SCRATCH}/build" -G "${GENERATOR}"
+     "-DCMAKE_CXX_COMPILER=${COMPILER}" ${arguments})
+step("build" "${CMAKE_COMMAND}" --build "${SCRATCH}/build")
+step("run" "${SCRATCH}/build/consumer")
+string(STRIP "${output}" output)
+if(NOT output MATCHES "^ism ${VERSION}")
+    message(FATAL_ERROR "consumer by ${WAY}: expected 'ism ${VERSION}' first, got '${output}'")
+endif()
+message(STATUS "${output}")

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <system_error>
+
+#include "ism/core/error.hpp"
+
+namespace ism::test {
+
+/// @brief An empty folder of its own that goes away with all in it.
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::random_device device;
+        path_ = std::filesystem::temp_directory_path() / join_text("ism-test-", std::hex, device(), device());
+        std::filesystem::create_directories(path_);
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// @brief The message of the E that `call` throws; "nothing thrown" where it throws nothing.
+template <class E = Error, std::invocable Call>
+[[nodiscard]] std::string error_message(Call&& call) {
+    try {
+        call();
+    } catch (const E& error) {
+        return error.what();
+    }
+    return "nothing thrown";
+}
+
+}  // namespace ism::test
