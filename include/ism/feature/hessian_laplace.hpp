@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "ism/feature/detector.hpp"
+#include "ism/feature/laplacian_scale.hpp"
+
+namespace ism {
+
+/// @brief Blobs: maxima in the plane of the determinant of the Hessian, σ⁴·(Lxx·Lyy − Lxy²), at those places
+/// where the Laplacian has an extremum over scale nearby (Mikolajczyk & Schmid 2004). A Gaussian blob of
+/// deviation t is found at the scale t. strength = the determinant. Of features less than half a scale and
+/// half an octave apart the strongest stays.
+struct HessianLaplace {
+    static constexpr std::string_view name = "hessian-laplace";
+
+    float threshold = 2e-3f;         ///< least determinant, brightness 0 … 1
+    float least_laplacian = 0.005f;  ///< least |normalised Laplacian|
+    float scale_tolerance = 0.5f;    ///< octaves from the level searched to the extremum over scale
+    int border = 5;                  ///< pixels of the octave without features along the edge
+
+    /// @throws Error where an option is out of range.
+    [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, unsigned threads) const {
+        expect(threshold >= 0, "Hessian threshold", "0 or more", threshold);
+        expect(scale_tolerance > 0 && scale_tolerance <= 1, "scale_tolerance (octaves)", "above 0, up to 1",
+               scale_tolerance);
+        expect(border >= 0, "border (pixels)", "0 or more", border);
+        const auto respond = [&](int octave, int level, int first, int end, ImageView<float> out) {
+            const ImageView<const float> image = space.level(octave, level);
+            const float sigma = space.level_sigma(float(level)), sigma4 = sigma * sigma * sigma * sigma;
+            for (int y = first; y < end; ++y)
+                determinant(image.row(y - 1).data(), image.row(y).data(), image.row(y + 1).data(),
+                            image.width(), sigma4, out.row(y - first).data());
+        };
+        return detail::scale_selected_maxima(space,
+                                             {.first_level = 1,
+                                              .scale_offset = 0,
+                                              .scale_tolerance = scale_tolerance,
+                                              .threshold = threshold,
+                                              .least_laplacian = least_laplacian,
+                                              .border = border},
+                                             threads, respond);
+    }
+
+private:
+    static void determinant(const float* above, const float* here, const float* below, int width,
+                            float sigma4, float* __restrict out) {
+        for (int x = 1; x < width - 1; ++x) {
+            const float xx = here[x - 1] - 2 * here[x] + here[x + 1];
+            const float yy = above[x] - 2 * here[x] + below[x];
+            const float xy = 0.25f * (below[x + 1] - below[x - 1] - above[x + 1] + above[x - 1]);
+            out[x] = sigma4 * (xx * yy - xy * xy);
+        }
+    }
+};
+
+}  // namespace ism
