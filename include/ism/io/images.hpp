@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+
+/// @file
+/// @brief Reading image files by stb_image. A program that includes this header compiles stb once by
+/// including "ism/io/stb_implementation.hpp" in one of its .cpp files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#if __has_include(<stb/stb_image.h>)
+#include <stb/stb_image.h>
+#else
+#include <stb_image.h>
+#endif
+
+#include "ism/core/image.hpp"
+#include "ism/io/image_damage.hpp"
+#include "ism/io/limits.hpp"
+#include "ism/io/png.hpp"
+#include "ism/io/write_file.hpp"
+
+namespace ism {
+
+namespace detail {
+
+/// @brief An image file in memory, whole and of a bearable size, not yet decoded.
+struct ImageFile {
+    std::filesystem::path path;
+    std::vector<std::uint8_t> bytes;  ///< at most 2^30
+    int width = 0, height = 0;
+    int channels = 0;   ///< 1 grey, 2 grey + alpha, 3 colour, 4 colour + alpha
+    bool deep = false;  ///< 16 bits a channel
+
+    [[noreturn]] void refuse(std::string_view expected, std::string_view actual) const {
+        throw FileError(join_text(file_text(path), ": expected ", expected, ", got ", actual));
+    }
+};
+
+[[nodiscard]] inline ImageFile open_image(const std::filesystem::path& path) {
+    constexpr std::uintmax_t most_bytes = std::uintmax_t(1) << 30;
+    ImageFile file{.path = path, .bytes = read_bytes(path, most_bytes)};
+    if (file.bytes.empty()) file.refuse("an image", "an empty file");
+    const ImageFormat format = image_format(file.bytes);
+    if (format == ImageFormat::unknown) file.refuse("a PNG, JPEG, BMP or PNM image", "something else");
+    const auto refuse_damage = [&](const std::string& damage) {
+        if (!damage.empty()) file.refuse("a whole image", damage);
+    };
+    if (format == ImageFormat::png) refuse_damage(png_damage(file.bytes));
+    if (format == ImageFormat::jpeg) refuse_damage(jpeg_damage(file.bytes));
+    if (!stbi_info_from_memory(file.bytes.data(), int(file.bytes.size()), &file.width, &file.height,
+                               &file.channels))
+        file.refuse("an image", join_text("a damaged one (", stbi_failure_reason(), ")"));
+    if (format == ImageFormat::bmp && file.height < 0 && file.height >= -max_image_side)
+        file.height = -file.height;  // a BMP may begin with its first row
+    if (!is_image_size(file.width, file.height)) file.refuse(image_size_limits, sides_text(file));
+    if (format == ImageFormat::bmp) refuse_damage(bmp_damage(file.bytes, file.width, file.height));
+    if (format == ImageFormat::pnm)
+        refuse_damage(pnm_damage(file.bytes, std::int64_t(file.width) * file.height * file.channels));
+    file.deep = stbi_is_16_bit_from_memory(file.bytes.data(), int(file.bytes.size())) != 0;
+    if (file.deep && format != ImageFormat::png) file.refuse("8 bits a channel in this format", "16 bits");
+    return file;
+}
+
+template <class Sample>
+using Decoded = std::unique_ptr<Sample[], decltype(&stbi_image_free)>;
+
+/// @brief The samples of an image, `channels` a pixel, by one of stb's two decoders.
+/// @throws FileError where it gives nothing or an image of another size than announced.
+template <class Sample>
+[[nodiscard]] Decoded<Sample> decode(const ImageFile& file, int channels,
+                                     Sample* (*decoder)(const stbi_uc*, int, int*, int*, int*, int)) {
+    int width = 0, height = 0, ignored = 0;
+    Decoded<Sample> samples(
+        decoder(file.bytes.data(), int(file.bytes.size()), &width, &height, &ignored, channels),
+        &stbi_image_free);
+    if (!samples) file.refuse("an image", join_text("a damaged one (", stbi_failure_reason(), ")"));
+    if (width != file.width || height != file.height)
+        file.refuse(sides_text(file), join_text(width, "x", height));
+    return samples;
+}
+
+}  // namespace detail
+
+/// @brief Reads a PNG, JPEG, BMP or binary PNM file as colour: grey becomes r = g = b, transparency is
+/// dropped, 16 bits are cut to 8.
+/// @throws FileError where the file is missing, a folder, no image, truncated, damaged, or too large.
+[[nodiscard]] inline RgbImage read_rgb(const std::filesystem::path& path) {
+    const detail::ImageFile file = detail::open_image(path);
+    const auto samples = detail::decode(file, 3, stbi_load_from_memory);
+    RgbImage image(file.width, file.height);
+    const std::uint8_t* at = samples.get();
+    for (Rgb& pixel : image.pixels()) pixel = {at[0], at[1], at[2]}, at += 3;
+    return image;
+}
+
+/// @brief Reads an image file as brightness 0 … 1; grey files of 8 and of 16 bits keep their full precision,
+/// colours are weighted as by to_gray().
+/// @throws FileError as read_rgb() does.
+[[nodiscard]] inline GrayImage read_gray(const std::filesystem::path& path) {
+    const detail::ImageFile file = detail::open_image(path);
+    const bool colored = file.channels >= 3;
+    GrayImage image(file.width, file.height);
+    const auto fill = [&](const auto* at, float white) {
+        for (float& pixel : image.pixels()) {
+            pixel =
+                colored ? (0.299f * at[0] + 0.587f * at[1] + 0.114f * at[2]) / white : float(at[0]) / white;
+            at += colored ? 3 : 1;
+        }
+    };
+    if (file.deep)
+        fill(detail::decode(file, colored ? 3 : 1, stbi_load_16_from_memory).get(), 65535.0f);
+    else
+        fill(detail::decode(file, colored ? 3 : 1, stbi_load_from_memory).get(), 255.0f);
+    return image;
+}
+
+/// @brief Reads a depth camera's units from a 16-bit grey PNG file; 0 = no reading.
+/// @throws FileError as read_rgb() does, and where the file has 8 bits or colours.
+[[nodiscard]] inline RawDepth read_raw_depth(const std::filesystem::path& path) {
+    const detail::ImageFile file = detail::open_image(path);
+    if (!file.deep) file.refuse("depth as a 16-bit PNG", "an image of 8 bits");
+    if (file.channels != 1) file.refuse("depth as a grey PNG", join_text(file.channels, " channels"));
+    const auto samples = detail::decode(file, 1, stbi_load_16_from_memory);
+    const std::size_t count = std::size_t(file.width) * std::size_t(file.height);
+    return RawDepth(file.width, file.height,
+                    std::vector<std::uint16_t>(samples.get(), samples.get() + count));
+}
+
+}  // namespace ism
