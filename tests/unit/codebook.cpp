@@ -122,13 +122,20 @@ TEST_CASE("matching finds all words within the threshold, or the nearest of each
     for (float& v : words.values()) v = float(random.normal());
     for (float& v : descriptors.values()) v = float(random.normal());
     codebook.words = words;
-    for (std::size_t w = 0; w < words.size(); ++w) codebook.group.push_back(std::uint32_t(w % 3));
+    std::vector<double> variance;  // words that stand for descriptors a little around them
+    for (std::size_t w = 0; w < words.size(); ++w) {
+        codebook.group.push_back(std::uint32_t(w % 3));
+        double sq_length = 0;
+        for (const float v : words.row(w)) sq_length += double(v) * v;
+        variance.push_back(random.uniform(0, 0.5));
+        codebook.mean_sq_length.push_back(float(sq_length + variance.back()));
+    }
 
     std::vector<ism::Match> all, nearest;
     for (std::uint32_t i = 0; i < descriptors.size(); ++i) {
         std::map<std::uint32_t, std::vector<std::pair<double, std::uint32_t>>> hits;
         for (std::uint32_t w = 0; w < words.size(); ++w) {
-            double sq_distance = 0;
+            double sq_distance = variance[w];
             for (std::size_t k = 0; k < 7; ++k) {
                 const double d = double(words.row(w)[k]) - double(descriptors.row(i)[k]);
                 sq_distance += d * d;

@@ -113,7 +113,10 @@ TEST_CASE("votes carry p(word | feature) p(occurrence | word) and are ordered by
     CHECK(votes[1].occurrence == 0);
     CHECK(votes[2].weight == Approx(0.5));
     CHECK(votes[3].feature == 1);
-    CHECK(ism::cast_votes<ism::Jism>(features, matches, two_words(), 0.2f).size() == 3);
+    CHECK(ism::cast_votes<ism::Jism>(features, matches, two_words(), {.min_weight = 0.2f}).size() == 3);
+    CHECK(ism::cast_votes<ism::Jism>(features, matches, two_words(), {.max_scale = 2}).size() == 2);
+    CHECK(ism::cast_votes<ism::Jism>(features, matches, two_words(), {.width = 93, .height = 99}).size() ==
+          3);
 }
 
 TEST_CASE("a feature without a depth reading votes in flat spaces only") {

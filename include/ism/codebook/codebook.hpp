@@ -16,13 +16,16 @@
 
 namespace ism {
 
-/// @brief Visual words: the means of clusters of descriptors. In a joint codebook all words belong to group
-/// 0; in a codebook of one part a class, a word's group is its class.
+/// @brief Visual words: the means of clusters of descriptors. The distance of a descriptor to a word is that
+/// of the clustering: the mean squared distance to the descriptors the word stands for, |d|² + mean_sq_length
+/// − 2 d·mean. In a joint codebook all words belong to group 0; in a codebook of one part a class, a word's
+/// group is its class.
 template <std::size_t Dimension>
 struct Codebook {
     Descriptors<float, Dimension> words;  ///< one row a word, in the units of the descriptor
-    std::vector<std::uint32_t> group;     ///< of each word
-    double max_sq_distance = 0;           ///< a descriptor matches every word no further away
+    std::vector<float> mean_sq_length;  ///< of each word: mean of |d|² over the descriptors d it stands for
+    std::vector<std::uint32_t> group;   ///< of each word
+    double max_sq_distance = 0;         ///< a descriptor matches every word no further away
 
     [[nodiscard]] std::size_t size() const { return words.size(); }
 };
@@ -51,19 +54,26 @@ template <std::size_t Dimension>
     const Clustering clustering =
         cluster_average_link(descriptors.values(), Dimension, max_sq_distance, threads);
     std::vector<std::size_t> size(clustering.count, 0);
+    std::vector<double> sq_length(clustering.count, 0);
     Descriptors<float, Dimension> means(clustering.count);
     for (std::size_t i = 0; i < descriptors.size(); ++i) {
         const std::uint32_t label = clustering.label[i];
         ++size[label];
-        for (std::size_t k = 0; k < Dimension; ++k) means.row(label)[k] += descriptors.row(i)[k];
+        for (std::size_t k = 0; k < Dimension; ++k) {
+            const float value = descriptors.row(i)[k];
+            means.row(label)[k] += value;
+            sq_length[label] += double(value) * value;
+        }
     }
-    Codebook<Dimension> codebook{.words = {}, .group = {}, .max_sq_distance = max_sq_distance};
+    Codebook<Dimension> codebook{
+        .words = {}, .mean_sq_length = {}, .group = {}, .max_sq_distance = max_sq_distance};
     std::size_t largest = 0;
     for (std::uint32_t label = 0; label < clustering.count; ++label) {
         largest = std::max(largest, size[label]);
         if (size[label] < min_cluster_size) continue;
         for (float& value : means.row(label)) value /= static_cast<float>(size[label]);
         codebook.words.push_back(means.row(label));
+        codebook.mean_sq_length.push_back(static_cast<float>(sq_length[label] / double(size[label])));
         codebook.group.push_back(group);
     }
     expect(codebook.size() > 0, "codebook",
@@ -81,7 +91,6 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
     constexpr auto length = static_cast<Eigen::Index>(Dimension);
     const Eigen::Map<const Eigen::MatrixXf> words(codebook.words.values().data(), length,
                                                   static_cast<Eigen::Index>(codebook.size()));
-    const Eigen::VectorXf squares = words.colwise().squaredNorm().transpose();
     const std::uint32_t groups =
         codebook.group.empty() ? 0 : *std::max_element(codebook.group.begin(), codebook.group.end()) + 1;
     const auto threshold = static_cast<float>(codebook.max_sq_distance);
@@ -108,8 +117,7 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
                 const float square = part.col(column).squaredNorm();
                 const float* dot = dots.col(column).data();
                 for (std::size_t j = 0; j < width; ++j) {
-                    const float distance =
-                        square + squares[static_cast<Eigen::Index>(first + j)] - 2 * dot[j];
+                    const float distance = square + codebook.mean_sq_length[first + j] - 2 * dot[j];
                     if (distance <= threshold) near[i].emplace_back(first + j, distance);
                 }
             }

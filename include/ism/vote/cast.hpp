@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,14 @@ struct Vote {
     std::uint32_t feature = 0, word = 0, occurrence = 0;
 };
 
+/// @brief Which votes can be of an object in the picture.
+struct VoteLimits {
+    double width = 0, height = 0;  ///< the centre lies in a picture of this size, pixels; 0 = anywhere
+    double min_scale = 0;
+    double max_scale = std::numeric_limits<double>::infinity();
+    float min_weight = 0;  ///< lighter votes are dropped
+};
+
 /// @brief Casts the votes of matched features: each through every occurrence of each of its words. Votes
 /// lighter than `min_weight` are dropped, and in a space that needs depth those of features without a
 /// reading.
@@ -33,7 +42,8 @@ struct Vote {
 template <AnyVoteSpace Space>
 [[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(std::span<const Feature> features,
                                                              std::span<const Match> matches,
-                                                             const Shapes& shapes, float min_weight = 0) {
+                                                             const Shapes& shapes,
+                                                             const VoteLimits& limits = {}) {
     using V = Vote<Space::dimension>;
     std::vector<V> votes;
     for (const Match& match : matches) {
@@ -42,9 +52,15 @@ template <AnyVoteSpace Space>
         for (std::uint32_t i = shapes.first[match.word]; i < shapes.first[match.word + 1]; ++i) {
             const Occurrence& occurrence = shapes.occurrences[i];
             const float weight = match.weight * occurrence.weight;
-            if (weight < min_weight) continue;
+            if (weight < limits.min_weight) continue;
+            const double scale = scale_ratio(feature, occurrence);
+            if (scale < limits.min_scale || scale > limits.max_scale) continue;
+            if (limits.width > 0) {
+                const double x = X::vote(feature, occurrence), y = Y::vote(feature, occurrence);
+                if (x < 0 || y < 0 || x >= limits.width || y >= limits.height) continue;
+            }
             const V vote{.at = Space::position(feature, occurrence),
-                         .scale = static_cast<float>(scale_ratio(feature, occurrence)),
+                         .scale = static_cast<float>(scale),
                          .weight = weight,
                          .label = Space::label(feature, occurrence),
                          .feature = match.feature,

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ism/core/parallel.hpp"
+#include "ism/detect/detection.hpp"
+#include "ism/detect/model.hpp"
+#include "ism/detect/segment.hpp"
+#include "ism/detect/verify.hpp"
+#include "ism/feature/depth.hpp"
+#include "ism/vote/cast.hpp"
+#include "ism/vote/kernel.hpp"
+#include "ism/vote/mean_shift.hpp"
+
+namespace ism {
+
+/// @brief How objects are searched in a picture.
+template <AnyVoteSpace Space>
+struct DetectOptions {
+    Bandwidth<Space::dimension> bandwidth = default_bandwidth<Space>();
+    double keep = 0.2;  ///< T_ratio: weaker hypotheses than this part of the strongest are dropped
+    std::size_t max_hypotheses = 40;  ///< so many of the strongest are cut out and verified
+    double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
+    double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object
+    MatchMode matching = MatchMode::all;
+    float min_vote_weight = 0;  ///< lighter votes are dropped
+    MeanShiftOptions mean_shift = {};
+    SegmentOptions segmentation = {};
+    unsigned threads = 0;  ///< 0 = all the machine has
+};
+
+namespace detail {
+
+/// The value below which half of the weight lies; NaN without weight.
+[[nodiscard]] inline double weighted_median(std::vector<std::pair<double, double>> value_and_weight) {
+    std::stable_sort(value_and_weight.begin(), value_and_weight.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    double total = 0, sum = 0;
+    for (const auto& [value, weight] : value_and_weight) total += weight;
+    for (const auto& [value, weight] : value_and_weight)
+        if ((sum += weight) >= total / 2) return value;
+    return no_depth;
+}
+
+/// Tells from the votes of a window what the object would be: class, centre, scale, box, depth, position,
+/// support.
+template <std::size_t Dimension>
+[[nodiscard]] Detection describe_hypothesis(double score,
+                                            std::vector<std::pair<const Vote<Dimension>*, double>> window,
+                                            std::span<const Feature> features, const Shapes& shapes,
+                                            const Frame& frame) {
+    std::vector<double> of_class(shapes.class_names.size(), 0);
+    for (const auto& [vote, kernel] : window)
+        of_class[shapes.occurrences[vote->occurrence].class_index] += vote->weight * kernel;
+    Detection result;
+    result.class_index =
+        static_cast<std::size_t>(std::max_element(of_class.begin(), of_class.end()) - of_class.begin());
+    result.score = score;
+    std::erase_if(window, [&](const auto& entry) {
+        return shapes.occurrences[entry.first->occurrence].class_index != result.class_index;
+    });
+
+    double total = 0, x = 0, y = 0, scale = 0, width = 0, height = 0;
+    std::vector<std::pair<double, double>> depths;
+    for (const auto& [vote, kernel] : window) {
+        const double weight = vote->weight * kernel;
+        const Feature& f = features[vote->feature];
+        const Occurrence& o = shapes.occurrences[vote->occurrence];
+        const TrainingObject& object = shapes.objects[o.object];
+        total += weight;
+        x += weight * X::vote(f, o);
+        y += weight * Y::vote(f, o);
+        scale += weight * vote->scale;
+        width += weight * vote->scale * object.width;
+        height += weight * vote->scale * object.height;
+        if (is_depth(f.depth_m))
+            depths.emplace_back(f.depth_m - (std::isfinite(o.depth_m) ? o.depth_m : 0), weight);
+        result.support.push_back({vote->feature, vote->word, vote->occurrence, static_cast<float>(weight)});
+    }
+    result.centre = {x / total, y / total};
+    result.scale = scale / total;
+    result.box = box_around(result.centre, width / total, height / total);
+    result.depth_m = weighted_median(std::move(depths));
+    if (frame.camera && is_depth(result.depth_m))
+        result.position_m = back_project(*frame.camera, result.centre, result.depth_m);
+    std::stable_sort(result.support.begin(), result.support.end(),
+                     [](const Support& a, const Support& b) { return a.weight > b.weight; });
+    return result;
+}
+
+}  // namespace detail
+
+/// @brief The places where votes of one label agree, strongest first, each told as a detection without
+/// segmentation.
+/// @param votes  as cast_votes gives them: all of a label one after another
+template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
+[[nodiscard]] std::vector<Detection> find_hypotheses(std::span<const Vote<Space::dimension>> votes,
+                                                     std::span<const Feature> features, const Shapes& shapes,
+                                                     const Frame& frame,
+                                                     const DetectOptions<Space>& options = {}) {
+    constexpr std::size_t dimension = Space::dimension;
+    std::vector<std::span<const Vote<dimension>>> of_label;
+    for (std::size_t first = 0, i = 1; i <= votes.size(); ++i)
+        if (i == votes.size() || votes[i].label != votes[first].label) {
+            of_label.push_back(votes.subspan(first, i - first));
+            first = i;
+        }
+    std::vector<std::vector<Detection>> found(of_label.size());
+    parallel_for(of_label.size(), options.threads, [&](std::size_t l) {
+        const VoteGrid<dimension> grid(of_label[l], options.bandwidth);
+        const auto modes = find_modes<K>(grid, of_label[l], options.bandwidth, options.mean_shift);
+        for (const auto& mode : modes) {
+            if (found[l].size() == options.max_hypotheses || mode.score < options.keep * modes.front().score)
+                break;
+            std::vector<std::pair<const Vote<dimension>*, double>> window;
+            grid.each_within(mode.at, options.bandwidth.at(mode.scale), K::reach,
+                             [&](std::uint32_t i, double sq_u) {
+                                 if (K::profile(sq_u) > 0)
+                                     window.emplace_back(&of_label[l][i], K::profile(sq_u));
+                             });
+            if (!window.empty())
+                found[l].push_back(
+                    detail::describe_hypothesis(mode.score, std::move(window), features, shapes, frame));
+        }
+    });
+    std::vector<Detection> hypotheses;
+    for (auto& part : found) std::move(part.begin(), part.end(), std::back_inserter(hypotheses));
+    std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                     [](const Detection& a, const Detection& b) { return a.score > b.score; });
+    std::size_t count = 0;
+    while (count < hypotheses.size() && count < options.max_hypotheses &&
+           hypotheses[count].score >= options.keep * hypotheses.front().score)
+        ++count;
+    hypotheses.resize(count);
+    return hypotheses;
+}
+
+/// @brief Detects objects from features already matched: votes, mean shift, segmentation, verification.
+template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl>
+[[nodiscard]] Detections detect_from_matches(std::vector<Feature> features, std::span<const Match> matches,
+                                             const Shapes& shapes, const Frame& frame,
+                                             const DetectOptions<Space>& options = {},
+                                             const V& verifier = {}) {
+    expect(options.keep >= 0 && options.keep <= 1, "detection: part of the strongest score to keep (T_ratio)",
+           "0 ... 1", options.keep);
+    check(options.bandwidth);
+    expect(options.min_size_px >= 0 && options.max_size_px >= 0, "detection: least and largest object size",
+           "0 px or more", join_text(options.min_size_px, ", ", options.max_size_px));
+    const auto [smallest, largest] = std::minmax_element(
+        shapes.objects.begin(), shapes.objects.end(),
+        [](const TrainingObject& a, const TrainingObject& b) { return a.size_px < b.size_px; });
+    const double min_size_px = options.min_size_px > 0 ? options.min_size_px : smallest->size_px / 2;
+    const double max_size_px = options.max_size_px > 0 ? options.max_size_px : largest->size_px * 2;
+    const auto votes = cast_votes<Space>(features, matches, shapes,
+                                         {.width = static_cast<double>(frame.gray.width()),
+                                          .height = static_cast<double>(frame.gray.height()),
+                                          .min_scale = min_size_px / reference_size_px,
+                                          .max_scale = max_size_px / reference_size_px,
+                                          .min_weight = options.min_vote_weight});
+    auto hypotheses = find_hypotheses<Space, K>(votes, features, shapes, frame, options);
+    parallel_for(hypotheses.size(), options.threads, [&](std::size_t i) {
+        hypotheses[i].segmentation = segment(features, shapes, hypotheses[i].support, hypotheses[i].box,
+                                             frame.gray.width(), frame.gray.height(), options.segmentation);
+    });
+    Detections result{.objects = {}, .features = std::move(features)};
+    for (const Verified& verified : verifier.verify(std::span<const Detection>(hypotheses))) {
+        result.objects.push_back(std::move(hypotheses[verified.index]));
+        result.objects.back().score = verified.score;
+    }
+    std::stable_sort(result.objects.begin(), result.objects.end(),
+                     [](const Detection& a, const Detection& b) { return a.score > b.score; });
+    std::erase_if(result.objects, [&](const Detection& object) {
+        return object.score < options.keep * result.objects.front().score;
+    });
+    return result;
+}
+
+/// @brief Finds, cuts out and places the objects of a picture. A picture in which nothing is found gives an
+/// empty list. A model may be used from several threads at once.
+/// @tparam Space  the vote space: Ism, Jism, Ji3sm1, Ji3sm2, Ji3sm3 or one of your own
+/// @throws Error for a frame that is none (see check(Frame)), an option out of range, or a space that needs
+/// depth where the frame has none.
+template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl, Detector D, Descriptor Desc>
+[[nodiscard]] Detections detect(const Model<D, Desc>& model, const Frame& frame,
+                                const DetectOptions<Space>& options = {}, const V& verifier = {}) {
+    check(frame);
+    expect(!Space::needs_depth || !frame.depth_m.empty(), "depth image",
+           "one, since the vote space uses depth", "none");
+    auto found = extract(frame.gray, model.extractor, options.threads);
+    if (!frame.depth_m.empty()) found.features = with_depth(std::move(found.features), frame.depth_m);
+    const auto matches = match(model.codebook, found.descriptors, options.matching, options.threads);
+    return detect_from_matches<Space, K>(std::move(found.features), matches, model.shapes, frame, options,
+                                         verifier);
+}
+
+}  // namespace ism

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ism/detect/detection.hpp"
+
+namespace ism {
+
+/// @brief A hypothesis that stays, and the score it stays with.
+struct Verified {
+    std::size_t index = 0;
+    double score = 0;
+};
+
+/// @brief Decides which of several hypotheses stay.
+template <class V>
+concept Verifier = std::copyable<V> && requires(const V& verifier, std::span<const Detection> hypotheses) {
+    { verifier.verify(hypotheses) } -> std::same_as<std::vector<Verified>>;
+};
+
+/// @brief Plain non-maximum suppression: of hypotheses whose boxes overlap the strongest stays.
+struct NonMaximumSuppression {
+    double max_iou = 0.4;        ///< boxes that overlap more are of one object
+    bool across_classes = true;  ///< whether classes suppress each other
+
+    /// @brief The hypotheses that stay, strongest first, with their scores unchanged.
+    [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> hypotheses) const {
+        std::vector<Verified> order, kept;
+        for (std::size_t i = 0; i < hypotheses.size(); ++i) order.push_back({i, hypotheses[i].score});
+        std::stable_sort(order.begin(), order.end(),
+                         [](const Verified& a, const Verified& b) { return a.score > b.score; });
+        for (const Verified& candidate : order) {
+            const Detection& own = hypotheses[candidate.index];
+            const bool free = std::none_of(kept.begin(), kept.end(), [&](const Verified& other) {
+                const Detection& rival = hypotheses[other.index];
+                return (across_classes || rival.class_index == own.class_index) &&
+                       iou(rival.box, own.box) > max_iou;
+            });
+            if (free) kept.push_back(candidate);
+        }
+        return kept;
+    }
+};
+
+/// @brief What a set of hypotheses saves: each has its own savings, and each pair pays for what both claim.
+struct Savings {
+    std::vector<double> own;   ///< of each hypothesis alone
+    std::vector<double> cost;  ///< pair (i, j) at i · count + j, symmetric, ≥ 0
+
+    /// @brief Σ own − Σ cost over the pairs of a set.
+    [[nodiscard]] double of(std::span<const std::size_t> chosen) const {
+        double sum = 0;
+        for (std::size_t a = 0; a < chosen.size(); ++a) {
+            sum += own[chosen[a]];
+            for (std::size_t b = 0; b < a; ++b) sum -= cost[chosen[a] * own.size() + chosen[b]];
+        }
+        return sum;
+    }
+};
+
+/// @brief Verification by minimum description length (Leibe et al. 2008, section 6): a hypothesis saves
+/// S = −K1/K0 + (1 − K2/K0) · N + (K2/K0) · Σ p(figure), over the N pixels of its mask, in parts of its box;
+/// pixels that two hypotheses claim are charged to the one with the lower score.
+struct Mdl {
+    double k1_over_k0 = 0.15;  ///< what a further hypothesis costs, in parts of its box
+    double k2_over_k0 = 0.95;  ///< how much the certainty of a pixel counts
+
+    /// @brief Savings of each hypothesis and the cost of each pair.
+    [[nodiscard]] Savings savings(std::span<const Detection> hypotheses) const {
+        const std::size_t count = hypotheses.size();
+        Savings result{std::vector<double>(count), std::vector<double>(count * count, 0)};
+        for (std::size_t i = 0; i < count; ++i) {
+            const Segmentation& part = hypotheses[i].segmentation;
+            double sum = 0;
+            for (int y = 0; y < part.mask.height(); ++y)
+                for (int x = 0; x < part.mask.width(); ++x)
+                    if (part.mask(x, y) != 0) sum += worth(part, x, y);
+            result.own[i] = sum / hypotheses[i].box.area() - k1_over_k0;
+            for (std::size_t j = 0; j < i; ++j) {
+                const bool i_weaker = hypotheses[i].score <= hypotheses[j].score;
+                const double shared = i_weaker ? claimed_too(hypotheses[i], hypotheses[j])
+                                               : claimed_too(hypotheses[j], hypotheses[i]);
+                result.cost[i * count + j] = result.cost[j * count + i] = shared;
+            }
+        }
+        return result;
+    }
+
+    /// @brief Adds the hypothesis with the largest gain, weighed by its score, as long as one gains. A
+    /// hypothesis that loses pixels to others keeps its score in the part it still saves.
+    [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> hypotheses) const {
+        const Savings all = savings(hypotheses);
+        std::vector<double> gain = all.own;
+        std::vector<bool> open(hypotheses.size(), true);
+        const auto worth_of = [&](std::size_t i) {
+            return hypotheses[i].score * gain[i] / std::max(all.own[i], 1e-12);
+        };
+        std::vector<Verified> kept;
+        while (true) {
+            std::size_t best = hypotheses.size();
+            for (std::size_t i = 0; i < hypotheses.size(); ++i)
+                if (open[i] && gain[i] > 0 && (best == hypotheses.size() || worth_of(i) > worth_of(best)))
+                    best = i;
+            if (best == hypotheses.size()) return kept;
+            kept.push_back({best, worth_of(best)});
+            open[best] = false;
+            for (std::size_t i = 0; i < hypotheses.size(); ++i)
+                gain[i] -= all.cost[best * hypotheses.size() + i];
+        }
+    }
+
+private:
+    [[nodiscard]] double worth(const Segmentation& part, int x, int y) const {
+        const double figure = part.figure(x, y), ground = part.ground(x, y);
+        return 1 - k2_over_k0 + k2_over_k0 * figure / (figure + ground);
+    }
+
+    /// What of `weaker` lies in the mask of `other` too, in parts of the box of `weaker`.
+    [[nodiscard]] double claimed_too(const Detection& weaker, const Detection& other) const {
+        const Segmentation &a = weaker.segmentation, &b = other.segmentation;
+        double sum = 0;
+        for (int y = std::max(a.y, b.y); y < std::min(a.y + a.mask.height(), b.y + b.mask.height()); ++y)
+            for (int x = std::max(a.x, b.x); x < std::min(a.x + a.mask.width(), b.x + b.mask.width()); ++x)
+                if (a.mask(x - a.x, y - a.y) != 0 && b.mask(x - b.x, y - b.y) != 0)
+                    sum += worth(a, x - a.x, y - a.y);
+        return sum / weaker.box.area();
+    }
+};
+
+}  // namespace ism
