@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "ism/evaluate/evaluate.hpp"
+#include "ism/io/coco_results.hpp"
+#include "ism/io/dataset.hpp"
+
+namespace ism {
+
+/// @brief How results are measured against a data set.
+struct EvaluateOptions {
+    enum class Rule { iou, uiuc };
+    Rule rule = Rule::iou;       ///< when a box is right: IouRule or UiucRule
+    double iou_threshold = 0.5;  ///< of IouRule, above 0, up to 1
+};
+
+namespace detail {
+
+/// The objects of a data set; where[i] is the image and the annotation of object i.
+struct DatasetTruth {
+    std::vector<TruthObject> objects;
+    std::vector<std::pair<std::size_t, std::size_t>> where;
+};
+
+[[nodiscard]] inline DatasetTruth truth_of(const Dataset& dataset) {
+    DatasetTruth truth;
+    for (std::size_t i = 0; i < dataset.images.size(); ++i)
+        for (std::size_t a = 0; a < dataset.images[i].objects.size(); ++a) {
+            const DatasetAnnotation& object = dataset.images[i].objects[a];
+            truth.objects.push_back({i, object.class_index, object.box, object.crowd});
+            truth.where.emplace_back(i, a);
+        }
+    return truth;
+}
+
+/// Results with the data set's image and category numbers as indices.
+[[nodiscard]] inline std::vector<FoundObject> found_in(const Dataset& dataset,
+                                                       std::span<const Result> results) {
+    std::map<std::int64_t, std::size_t> image_of, class_of;
+    for (std::size_t i = 0; i < dataset.images.size(); ++i) image_of[dataset.images[i].id] = i;
+    for (std::size_t c = 0; c < dataset.category_ids.size(); ++c) class_of[dataset.category_ids[c]] = c;
+    const std::string set =
+        dataset.source.empty() ? "the data set" : "data set '" + dataset.source.string() + "'";
+    std::vector<FoundObject> found;
+    for (const Result& result : results) {
+        const auto image = image_of.find(result.image_id);
+        const auto category = class_of.find(result.category_id);
+        const std::string place = join_text("result ", found.size(), ": ");
+        expect(image != image_of.end(), place + "image_id", "an image of " + set, result.image_id);
+        expect(category != class_of.end(), place + "category_id", "a category of " + set, result.category_id);
+        found.push_back({image->second, category->second, result.box, result.score});
+    }
+    return found;
+}
+
+}  // namespace detail
+
+/// @brief Measures results against a data set; crowds are ignored, masks are compared where both have one,
+/// two at a time in memory.
+/// @throws Error, naming the result, for an image or category number that the data set lacks, a mask of
+/// another size than the image, or a score or box that is not finite.
+template <MatchRule R>
+[[nodiscard]] Evaluation evaluate(const Dataset& dataset, std::span<const Result> results, const R& rule) {
+    const detail::DatasetTruth truth = detail::truth_of(dataset);
+    const auto overlap = [&](std::size_t f, std::size_t t) {
+        const DatasetImage& image = dataset.images[truth.where[t].first];
+        const Mask mask = read_mask(image, image.objects[truth.where[t].second]);
+        if (mask.empty() || !results[f].segmentation) return std::numeric_limits<double>::quiet_NaN();
+        const CompressedRle& packed = *results[f].segmentation;
+        expect(packed.width == mask.width() && packed.height == mask.height(),
+               join_text("result ", f, ": mask size"), size_text(mask),
+               join_text(packed.width, "x", packed.height));
+        return mask_iou(decompress_mask(packed), mask);
+    };
+    return evaluate(truth.objects, detail::found_in(dataset, results), dataset.images.size(),
+                    dataset.class_names, rule, overlap);
+}
+
+/// @brief The same with a rule chosen at run time.
+/// @throws Error as above, and for a threshold that is not above 0 and at most 1.
+[[nodiscard]] inline Evaluation evaluate(const Dataset& dataset, std::span<const Result> results,
+                                         const EvaluateOptions& options = {}) {
+    if (options.rule == EvaluateOptions::Rule::uiuc) return evaluate(dataset, results, UiucRule{});
+    expect(options.iou_threshold > 0 && options.iou_threshold <= 1, "IoU threshold", "above 0, at most 1",
+           options.iou_threshold);
+    return evaluate(dataset, results, IouRule{options.iou_threshold});
+}
+
+/// @brief An evaluation as JSON text: `classes` {name: {objects, detections, right, ap, eer, best_f1,
+/// best_f1_score, mask_iou}}, `mean` {ap, eer, best_f1, mask_iou}, `accuracy`; null where there was nothing
+/// to measure.
+[[nodiscard]] inline std::string to_json(const Evaluation& evaluation) {
+    using Json = nlohmann::ordered_json;
+    const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+    const auto add = [&](Json record, const Figures& figures) {
+        record["ap"] = number(figures.ap);
+        record["eer"] = number(figures.eer);
+        record["best_f1"] = number(figures.best_f1);
+        record["mask_iou"] = number(figures.mask_iou);
+        return record;
+    };
+    Json classes = Json::object();
+    for (const ClassEvaluation& c : evaluation.classes) {
+        const Json counts = {{"objects", c.objects}, {"detections", c.detections}, {"right", c.right}};
+        classes[c.name] = add(counts, c.figures);
+        classes[c.name]["best_f1_score"] = number(c.best_f1_score);
+    }
+    Json root = {{"classes", classes}, {"mean", add(Json::object(), evaluation.mean)}};
+    root["accuracy"] = evaluation.confusion ? Json(evaluation.confusion->accuracy()) : Json(nullptr);
+    return root.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace ism

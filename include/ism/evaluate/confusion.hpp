@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ism/evaluate/matching.hpp"
+
+namespace ism {
+
+/// @brief Which class images of a class were taken for.
+struct Confusion {
+    std::size_t class_count = 0;
+    std::vector<std::size_t>
+        counts;  ///< class_count rows (true class) of class_count + 1 (found class, none)
+
+    /// @brief Images of class `truth` taken for `found`; `found == class_count`: nothing was found.
+    [[nodiscard]] std::size_t count(std::size_t truth, std::size_t found) const {
+        return counts.at(truth * (class_count + 1) + found);
+    }
+    /// @brief Images of class `truth`.
+    [[nodiscard]] std::size_t images(std::size_t truth) const {
+        std::size_t sum = 0;
+        for (std::size_t found = 0; found <= class_count; ++found) sum += count(truth, found);
+        return sum;
+    }
+    /// @brief Share of all images that were taken for their class, 0 … 1; nothing found counts as wrong.
+    [[nodiscard]] double accuracy() const {
+        std::size_t right = 0, all = 0;
+        for (std::size_t c = 0; c < class_count; ++c) right += count(c, c), all += images(c);
+        return all > 0 ? double(right) / double(all) : 0;
+    }
+};
+
+/// @brief Whether each of `image_count` images holds exactly one object, so that images have a class.
+/// @throws Error where an object's image is none of them.
+[[nodiscard]] inline bool one_object_each(std::span<const TruthObject> truth, std::size_t image_count) {
+    std::vector<std::size_t> objects(image_count);
+    for (const TruthObject& t : truth) {
+        expect(t.image < image_count, "image of an object", join_text("below ", image_count), t.image);
+        ++objects[t.image];
+    }
+    for (const std::size_t count : objects)
+        if (count != 1) return false;
+    return image_count > 0;
+}
+
+/// @brief The confusion matrix of images that hold one object each; an image is taken for the class of its
+/// detection of the best score (of equal ones the earlier), wherever it lies.
+/// @throws Error where an image holds more or less than one object, or an index is too large.
+[[nodiscard]] inline Confusion confusion(std::span<const TruthObject> truth,
+                                         std::span<const FoundObject> found, std::size_t image_count,
+                                         std::size_t class_count) {
+    expect(one_object_each(truth, image_count), "objects of the images", "exactly one in each",
+           join_text(truth.size(), " in ", image_count, " images"));
+    std::vector<std::size_t> taken_for(image_count, class_count);
+    for (const std::size_t f : by_score(found)) {
+        expect(found[f].image < image_count, "image of a found object", join_text("below ", image_count),
+               found[f].image);
+        expect(found[f].class_index < class_count, "class of a found object",
+               join_text("below ", class_count), found[f].class_index);
+        if (taken_for[found[f].image] == class_count) taken_for[found[f].image] = found[f].class_index;
+    }
+    Confusion matrix{.class_count = class_count,
+                     .counts = std::vector<std::size_t>(class_count * (class_count + 1))};
+    for (const TruthObject& t : truth) {
+        expect(t.class_index < class_count, "class of an object", join_text("below ", class_count),
+               t.class_index);
+        ++matrix.counts[t.class_index * (class_count + 1) + taken_for[t.image]];
+    }
+    return matrix;
+}
+
+}  // namespace ism

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ism/evaluate/evaluate.hpp"
+
+namespace ism {
+
+namespace detail {
+
+/// 0.8345 as "83.5"; NaN as "-".
+[[nodiscard]] inline std::string percent_text(double share) {
+    if (std::isnan(share)) return "-";
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.1f", 100 * share);
+    return text;
+}
+
+/// Number of characters of UTF-8 text.
+[[nodiscard]] inline std::size_t letter_count(const std::string& text) {
+    return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace detail
+
+/// @brief Rows of cells as text: the first column to the left, the others to the right, two blanks between;
+/// a newline after each row. Short rows are filled with empty cells.
+[[nodiscard]] inline std::string align_columns(const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows)
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (i == widths.size()) widths.push_back(0);
+            widths[i] = std::max(widths[i], detail::letter_count(row[i]));
+        }
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const std::string blanks(widths[i] - detail::letter_count(row[i]), ' ');
+            line += (i > 0 ? "  " : "") + (i > 0 ? blanks + row[i] : row[i] + blanks);
+        }
+        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return text;
+}
+
+/// @brief The cells of the table of an evaluation: a heading, a row for each class and their mean, percent.
+[[nodiscard]] inline std::vector<std::vector<std::string>> table_cells(const Evaluation& evaluation) {
+    std::vector<std::vector<std::string>> rows = {
+        {"class", "objects", "found", "right", "AP %", "EER %", "F1 %", "mask IoU %"}};
+    const auto add = [&](std::vector<std::string> row, const Figures& figures) {
+        for (const double figure : {figures.ap, figures.eer, figures.best_f1, figures.mask_iou})
+            row.push_back(detail::percent_text(figure));
+        rows.push_back(std::move(row));
+    };
+    std::size_t objects = 0, detections = 0, right = 0;
+    for (const ClassEvaluation& c : evaluation.classes) {
+        add({c.name, std::to_string(c.objects), std::to_string(c.detections), std::to_string(c.right)},
+            c.figures);
+        objects += c.objects, detections += c.detections, right += c.right;
+    }
+    add({"mean", std::to_string(objects), std::to_string(detections), std::to_string(right)},
+        evaluation.mean);
+    return rows;
+}
+
+/// @brief The cells of the confusion matrix: a row for each true class, a column for each class it was taken
+/// for and one for "none", images.
+[[nodiscard]] inline std::vector<std::vector<std::string>> table_cells(
+    const Confusion& confusion, const std::vector<ClassEvaluation>& classes) {
+    std::vector<std::vector<std::string>> rows = {{"true \\ found"}};
+    for (const ClassEvaluation& c : classes) rows[0].push_back(c.name);
+    rows[0].emplace_back("none");
+    for (std::size_t truth = 0; truth < confusion.class_count; ++truth) {
+        rows.push_back({classes.at(truth).name});
+        for (std::size_t found = 0; found <= confusion.class_count; ++found)
+            rows.back().push_back(std::to_string(confusion.count(truth, found)));
+    }
+    return rows;
+}
+
+/// @brief An evaluation as lines of text with aligned columns: figures in percent ("-" = nothing to measure),
+/// then, where every image holds one object, the accuracy and for several classes the confusion matrix.
+[[nodiscard]] inline std::string to_table(const Evaluation& evaluation) {
+    std::string text = align_columns(table_cells(evaluation));
+    if (!evaluation.confusion) return text;
+    text += "\naccuracy " + detail::percent_text(evaluation.confusion->accuracy()) + " %\n";
+    if (evaluation.classes.size() > 1) {
+        text += '\n';
+        text += align_columns(table_cells(*evaluation.confusion, evaluation.classes));
+    }
+    return text;
+}
+
+}  // namespace ism

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+
+#include "ism/core/random.hpp"
+#include "ism/evaluate/evaluate.hpp"
+#include "ism/evaluate/table.hpp"
+
+using ism::ScoredVerdict;
+
+namespace {
+
+// the definitions word for word: cut at each score in turn and count
+struct Oracle {
+    double ap = 0, best_f1 = 0;
+};
+Oracle oracle(const std::vector<ScoredVerdict>& verdicts, std::size_t objects) {
+    std::set<double> cuts;
+    for (const ScoredVerdict& v : verdicts) cuts.insert(v.score);
+    std::vector<std::pair<double, double>> recall_precision;
+    Oracle result;
+    for (const double cut : cuts) {
+        double kept = 0, right = 0;
+        for (const ScoredVerdict& v : verdicts)
+            if (v.score >= cut) kept += 1, right += v.right;
+        recall_precision.emplace_back(right / double(objects), right / kept);
+        const double p = right / kept, r = right / double(objects);
+        if (p + r > 0) result.best_f1 = std::max(result.best_f1, 2 * p * r / (p + r));
+    }
+    // each of the `objects` steps of recall counts its best precision at that recall or beyond
+    for (std::size_t i = 1; i <= objects; ++i) {
+        double best = 0;
+        for (const auto& [recall, precision] : recall_precision)
+            if (recall > (double(i) - 0.5) / double(objects)) best = std::max(best, precision);
+        result.ap += best / double(objects);
+    }
+    return result;
+}
+
+std::vector<ScoredVerdict> falling(const std::string& verdicts) {
+    std::vector<ScoredVerdict> result;
+    for (std::size_t i = 0; i < verdicts.size(); ++i)
+        result.push_back({1.0 - double(i) / 100, verdicts[i] == '+'});
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("Average precision, equal error rate and F1 of curves counted by hand") {
+    // + − + over two objects: precision 1 up to recall ½, then 2/3
+    const auto curve = ism::precision_recall(falling("+-+"), 2);
+    REQUIRE(curve.points.size() == 3);
+    CHECK(curve.points[1].precision == 0.5);
+    CHECK(curve.points[2].recall == 1.0);
+    CHECK(ism::average_precision(curve) == Approx(0.5 * 1 + 0.5 * 2 / 3));
+    CHECK(ism::equal_error_rate(curve) == 0.5);
+    CHECK(ism::best_f1(curve).f1 == Approx(0.8));
+    CHECK(ism::best_f1(curve).score == Approx(0.98));
+
+    // − + over two objects: the second is never found
+    const auto late = ism::precision_recall(falling("-+"), 2);
+    CHECK(ism::average_precision(late) == Approx(0.25));
+    CHECK(ism::equal_error_rate(late) == 0.5);
+    CHECK(ism::best_f1(late).f1 == 0.5);
+
+    const auto all = ism::precision_recall(falling("+++--"), 3);
+    CHECK(ism::average_precision(all) == 1.0);
+    CHECK(ism::equal_error_rate(all) == 1.0);
+    CHECK(ism::best_f1(all).f1 == 1.0);
+}
+
+TEST_CASE("With fewer detections than objects the equal error rate is the recall of all of them") {
+    CHECK(ism::equal_error_rate(ism::precision_recall(falling("+-+"), 8)) == 0.25);
+}
+
+TEST_CASE("Figures do not depend on the order of detections of one score") {
+    std::vector<ScoredVerdict> verdicts{{0.9, true}, {0.5, true}, {0.5, false}, {0.5, false}, {0.1, true}};
+    std::set<double> ap, eer;
+    const auto before = [](const ScoredVerdict& a, const ScoredVerdict& b) { return a.right < b.right; };
+    std::sort(verdicts.begin(), verdicts.end(), before);
+    do {
+        const auto curve = ism::precision_recall(verdicts, 3);
+        ap.insert(ism::average_precision(curve)), eer.insert(ism::equal_error_rate(curve));
+    } while (std::next_permutation(verdicts.begin(), verdicts.end(), before));
+    CHECK(ap.size() == 1);
+    REQUIRE(eer.size() == 1);
+    // three are kept: the first and two of the three of score 0.5, of which 2/3 are right on average
+    CHECK(*eer.begin() == Approx((1 + 2.0 / 3) / 3));
+    CHECK(*ap.begin() == Approx((1 + 0.6 + 0.6) / 3));
+}
+
+TEST_CASE("Figures agree with their definitions on random detections, with and without ties") {
+    ism::Random random(11);
+    for (int round = 0; round < 300; ++round) {
+        const std::size_t objects = 1 + random.index(20);
+        const double levels = round % 2 == 0 ? 1e9 : 6;
+        std::vector<ScoredVerdict> verdicts;
+        std::size_t right = 0;
+        for (std::uint64_t i = random.index(40); i > 0; --i) {
+            const bool hit = right < objects && random.uniform() < 0.5;
+            right += hit;
+            verdicts.push_back({std::floor(random.uniform() * levels) / levels, hit});
+        }
+        const auto curve = ism::precision_recall(verdicts, objects);
+        const Oracle expected = oracle(verdicts, objects);
+        REQUIRE(ism::average_precision(curve) == Approx(expected.ap).margin(1e-12));
+        REQUIRE(ism::best_f1(curve).f1 == Approx(expected.best_f1).margin(1e-12));
+        if (levels > 6 && verdicts.size() >= objects) {  // no ties: count the first `objects` of them
+            std::sort(verdicts.begin(), verdicts.end(), [](auto a, auto b) { return a.score > b.score; });
+            double hits = 0;
+            for (std::size_t i = 0; i < objects; ++i) hits += verdicts[i].right;
+            REQUIRE(ism::equal_error_rate(curve) == Approx(hits / double(objects)).margin(1e-12));
+        }
+    }
+}
+
+TEST_CASE("Nothing found scores zero, nothing to find scores nothing") {
+    const auto none_found = ism::precision_recall({}, 5);
+    CHECK(ism::average_precision(none_found) == 0);
+    CHECK(ism::equal_error_rate(none_found) == 0);
+    CHECK(ism::best_f1(none_found).f1 == 0);
+    CHECK(std::isnan(ism::best_f1(none_found).score));
+
+    const auto none_there = ism::precision_recall(falling("--"), 0);
+    CHECK(std::isnan(ism::average_precision(none_there)));
+    CHECK(std::isnan(ism::equal_error_rate(none_there)));
+    CHECK(std::isnan(ism::best_f1(none_there).f1));
+    CHECK_THROWS_AS(ism::precision_recall(falling("+"), 0), ism::Error);
+}
+
+TEST_CASE("A confusion matrix counts the class of each image's surest detection") {
+    const ism::Box box{0, 0, 10, 10};
+    const std::vector<ism::TruthObject> truth{{0, 0, box}, {1, 0, box}, {2, 1, box}, {3, 1, box}};
+    const std::vector<ism::FoundObject> found{
+        {0, 1, box, 0.2}, {0, 0, box, 0.3}, {1, 1, box, 0.9}, {2, 1, {500, 0, 1, 1}, 0.1}, {2, 0, box, 0.1}};
+    const ism::Confusion matrix = ism::confusion(truth, found, 4, 2);
+    CHECK(matrix.counts == std::vector<std::size_t>{1, 1, 0, 0, 1, 1});
+    CHECK(matrix.count(1, 2) == 1);
+    CHECK(matrix.images(1) == 2);
+    CHECK(matrix.accuracy() == 0.5);
+    CHECK_THROWS_AS(ism::confusion(truth, found, 5, 2), ism::Error);
+    CHECK_THROWS_AS(ism::confusion(truth, found, 4, 1), ism::Error);
+}
+
+TEST_CASE("An evaluation of two classes counted by hand, with masks and a class without objects") {
+    const ism::Box box{0, 0, 10, 10}, far{100, 0, 10, 10};
+    const std::vector<std::string> names{"cup", "bowl", "pot"};
+    const std::vector<ism::TruthObject> truth{{0, 0, box}, {0, 0, far}, {1, 1, box}, {1, 1, far, true}};
+    const std::vector<ism::FoundObject> found{{0, 0, box, 0.9},   // right
+                                              {0, 0, box, 0.8},   // again: wrong
+                                              {1, 1, far, 0.7},   // ignored
+                                              {1, 1, box, 0.6},   // right
+                                              {1, 2, box, 0.5},   // no pot anywhere
+                                              {0, 0, far, 0.4}};  // right
+    std::vector<std::size_t> asked;
+    const auto overlap = [&](std::size_t f, std::size_t t) {
+        asked.push_back(f * 10 + t);
+        return f == 0 ? 0.8 : f == 5 ? 0.6 : std::nan("");
+    };
+    const ism::Evaluation result = ism::evaluate(truth, found, 2, names, ism::IouRule{}, overlap);
+    REQUIRE(result.classes.size() == 3);
+    CHECK(result.classes[0].figures.ap == Approx((1 + 2.0 / 3) / 2));
+    CHECK(result.classes[0].figures.eer == 0.5);
+    CHECK(result.classes[0].figures.mask_iou == Approx(0.7));
+    CHECK(result.classes[1].figures.ap == 1);
+    CHECK(result.classes[1].detections == 1);
+    CHECK(std::isnan(result.classes[1].figures.mask_iou));
+    CHECK(std::isnan(result.classes[2].figures.ap));
+    CHECK(result.mean.ap == Approx((result.classes[0].figures.ap + 1) / 2));
+    CHECK(result.mean.mask_iou == Approx(0.7));
+    CHECK_FALSE(result.confusion.has_value());
+    CHECK(asked == std::vector<std::size_t>{0, 51, 32});
+    CHECK(result.judgements[2].verdict == ism::Verdict::ignored);
+
+    CHECK_THROWS_AS(ism::evaluate(truth, found, 1, names, ism::IouRule{}), ism::Error);
+    CHECK_THROWS_AS(ism::evaluate(truth, found, 2, std::span(names).first(2), ism::IouRule{}), ism::Error);
+}
+
+TEST_CASE("The table has aligned columns, percentages and a dash where nothing was measured") {
+    const ism::Box box{0, 0, 10, 10};
+    const std::vector<std::string> names{"cup", "tea_box"};
+    const std::vector<ism::TruthObject> truth{{0, 0, box}};
+    const std::vector<ism::FoundObject> found{{0, 0, box, 0.9}};
+    const std::string table = ism::to_table(ism::evaluate(truth, found, 1, names, ism::IouRule{}));
+    CHECK(table ==
+          "class    objects  found  right   AP %  EER %   F1 %  mask IoU %\n"
+          "cup            1      1      1  100.0  100.0  100.0           -\n"
+          "tea_box        0      0      0      -      -      -           -\n"
+          "mean           1      1      1  100.0  100.0  100.0           -\n"
+          "\n"
+          "accuracy 100.0 %\n"
+          "\n"
+          "true \\ found  cup  tea_box  none\n"
+          "cup             1        0     0\n"
+          "tea_box         0        0     0\n");
+}

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "support/catch.hpp"
+
+#include "ism/core/random.hpp"
+#include "ism/io/draw.hpp"
+#include "ism/io/draw_mask.hpp"
+#include "ism/io/font.hpp"
+
+using ism::Point2;
+using ism::Rgb;
+using ism::RgbImage;
+
+namespace {
+
+// how much ink is on a black picture, in white pixels
+double ink(const RgbImage& picture) {
+    double sum = 0;
+    for (const Rgb c : picture.pixels()) sum += c.r / 255.0;
+    return sum;
+}
+
+std::size_t painted(const RgbImage& picture) {
+    return std::size_t(
+        std::count_if(picture.pixels().begin(), picture.pixels().end(), [](Rgb c) { return c != Rgb{}; }));
+}
+
+}  // namespace
+
+TEST_CASE("Lines and boxes along the pixels paint exactly these pixels") {
+    RgbImage picture(20, 10);
+    ism::draw_line(picture, {3, 4}, {8, 4}, {.color = ism::white});
+    for (int x = 3; x <= 8; ++x) CHECK(picture(x, 4) == ism::white);
+    CHECK(picture(10, 4) == Rgb{});
+    CHECK(picture(5, 3) == Rgb{});
+    CHECK(picture(5, 5) == Rgb{});
+
+    RgbImage boxes(20, 10);
+    ism::fill_box(boxes, {2, 3, 5, 4}, ism::white);
+    CHECK(painted(boxes) == 20);
+    CHECK(boxes(2, 3) == ism::white);
+    CHECK(boxes(6, 6) == ism::white);
+
+    RgbImage outline(20, 10);
+    ism::draw_box(outline, {2, 3, 6, 5}, {.color = ism::white});
+    CHECK(painted(outline) == 2 * 6 + 2 * 3);
+    CHECK(outline(7, 7) == ism::white);
+    CHECK(outline(3, 4) == Rgb{});
+}
+
+TEST_CASE("Discs, circles and slanting lines have the ink of their area") {
+    const double pi = std::numbers::pi;
+    RgbImage disc(100, 100), circle(100, 100), line(100, 100);
+    ism::fill_disc(disc, {50.3, 49.8}, 20, ism::white);
+    CHECK(ink(disc) == Approx(pi * 20 * 20).epsilon(0.005));
+    ism::draw_circle(circle, {50.3, 49.8}, 30, {.color = ism::white, .width_px = 3});
+    CHECK(ink(circle) == Approx(2 * pi * 30 * 3).epsilon(0.01));
+    ism::draw_line(line, {10, 10}, {70, 90}, {.color = ism::white, .width_px = 4});
+    CHECK(ink(line) == Approx(100 * 4 + pi * 4).epsilon(0.01));
+}
+
+TEST_CASE("A line paints every pixel near it and no other, whatever its slope") {
+    ism::Random random(5);
+    for (int round = 0; round < 24; ++round) {
+        const Point2 a{random.uniform(-20, 60), random.uniform(-20, 60)};
+        Point2 b{random.uniform(-20, 60), random.uniform(-20, 60)};
+        if (round % 6 == 0) b.y = a.y;
+        if (round % 6 == 1) b.x = a.x;
+        if (round % 6 == 2) b = a;
+        const double width = random.uniform(1, 6);
+        RgbImage picture(40, 40);
+        ism::draw_line(picture, a, b, {.color = ism::white, .width_px = width});
+        for (int y = 0; y < 40; ++y)
+            for (int x = 0; x < 40; ++x) {
+                double nearest = std::numeric_limits<double>::infinity();
+                for (int i = 0; i <= 1000; ++i)
+                    nearest = std::min(nearest, std::hypot(a.x + (b.x - a.x) * i / 1000 - x,
+                                                           a.y + (b.y - a.y) * i / 1000 - y));
+                const double cover = std::clamp(0.5 + width / 2 - nearest, 0.0, 1.0);
+                REQUIRE(std::abs(picture(x, y).r / 255.0 - cover) < 0.06);
+            }
+    }
+}
+
+TEST_CASE("Nothing is drawn outside the picture, and nothing that is not finite") {
+    const Rgb frame{1, 2, 3};
+    RgbImage whole(60, 50, frame);
+    const ism::ImageView<Rgb> part = whole.view().region(20, 15, 17, 13);
+    for (int y = 0; y < part.height(); ++y)
+        for (Rgb& pixel : part.row(y)) pixel = {};
+    ism::Random random(8);
+    const auto number = [&] {
+        const std::array<double, 6> odd{1e300,
+                                        -1e300,
+                                        std::nan(""),
+                                        std::numeric_limits<double>::infinity(),
+                                        -std::numeric_limits<double>::infinity(),
+                                        2e9};
+        return random.uniform() < 0.2 ? odd[random.index(odd.size())] : random.uniform(-40, 60);
+    };
+    for (int i = 0; i < 3000; ++i) {
+        const ism::Pen pen{.color = ism::white, .width_px = random.uniform(0, 9)};
+        const double a = number(), b = number(), c = number(), d = number();
+        ism::draw_line(part, {a, b}, {c, d}, pen);
+        ism::draw_circle(part, {a, b}, c, pen);
+        ism::fill_disc(part, {a, b}, c, ism::white, 0.5);
+        ism::draw_box(part, {a, b, c, d}, pen);
+        ism::fill_box(part, {a, b, c, d}, ism::white, 0.5);
+        ism::draw_text(part, int(random.uniform(-40, 60)), int(random.uniform(-40, 60)), "gj@\xC3\xA9",
+                       ism::white, 1 + int(random.index(4)));
+    }
+    for (int y = 0; y < whole.height(); ++y)
+        for (int x = 0; x < whole.width(); ++x)
+            if (x < 20 || y < 15 || x >= 37 || y >= 28) REQUIRE(whole(x, y) == frame);
+
+    RgbImage nothing(9, 9);
+    ism::draw_line(nothing, {std::nan(""), 4}, {4, 4}, {});
+    ism::draw_circle(nothing, {4, 4}, std::nan(""), {});
+    ism::fill_box(nothing, {1, 1, std::numeric_limits<double>::infinity(), 3}, ism::white);
+    CHECK(painted(nothing) == 0);
+    ism::draw_line(RgbImage{}, {0, 0}, {4, 4}, {});
+}
+
+TEST_CASE("Every letter differs from every other and all but the blank have ink") {
+    std::set<std::string> shapes;
+    for (char letter = ' '; letter <= '~'; ++letter) {
+        std::string shape;
+        for (int y = 0; y < 9; ++y)
+            for (int x = 0; x < 5; ++x) shape += ism::font_ink(letter, x, y) ? '#' : '.';
+        CHECK(shapes.insert(shape).second);
+        CHECK((letter == ' ') == (shape.find('#') == std::string::npos));
+    }
+    const std::array<std::string, 7> capital_t{"#####", "..#..", "..#..", "..#..", "..#..", "..#..", "..#.."};
+    for (int y = 0; y < 7; ++y)
+        for (int x = 0; x < 5; ++x)
+            CHECK(ism::font_ink('T', x, y) == (capital_t[std::size_t(y)][std::size_t(x)] == '#'));
+}
+
+TEST_CASE("Text is as wide as it says") {
+    CHECK(ism::text_width("") == 0);
+    CHECK(ism::text_width("HH", 3) == 33);
+    RgbImage picture(60, 40);
+    ism::draw_text(picture, 5, 4, "HH", ism::white, 3);
+    int left = 60, right = -1, top = 40, bottom = -1;
+    for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 60; ++x)
+            if (picture(x, y) == ism::white)
+                left = std::min(left, x), right = std::max(right, x), top = std::min(top, y),
+                bottom = std::max(bottom, y);
+    CHECK(std::tuple(left, right, top, bottom) == std::tuple(5, 5 + 32, 4, 4 + 20));
+}
+
+TEST_CASE("Masks tint their figure, and contours are the figure pixels next to ground") {
+    ism::Mask mask(9, 7);
+    for (int y = 1; y < 6; ++y)
+        for (int x = 0; x < 5; ++x) mask(x, y) = 1;
+    RgbImage tinted(9, 7);
+    ism::blend_mask(tinted, mask, ism::white, 0.4);
+    CHECK(painted(tinted) == 25);
+    CHECK(tinted(2, 2).r == 102);
+    RgbImage contour(9, 7);
+    ism::draw_contour(contour, mask, ism::white);
+    CHECK(painted(contour) == 16);
+    CHECK(contour(0, 3) == ism::white);
+    CHECK(contour(2, 3) == Rgb{});
+    RgbImage other(7, 9);
+    CHECK_THROWS_AS(ism::blend_mask(other, mask, ism::white, 1), ism::Error);
+    CHECK_THROWS_AS(ism::draw_contour(other, mask, ism::white), ism::Error);
+}
+
+TEST_CASE("Colour maps grow brighter with the value and class colours differ") {
+    for (int i = 1; i <= 100; ++i)
+        CHECK(ism::brightness(ism::heat_color(i / 100.0)) >
+              ism::brightness(ism::heat_color((i - 1) / 100.0)));
+    CHECK(ism::heat_color(std::nan("")) == ism::heat_color(0));
+    CHECK(ism::heat_color(7) == ism::heat_color(1));
+    CHECK(ism::grey_color(1) == ism::white);
+    std::set<std::tuple<int, int, int>> colors;
+    for (std::size_t i = 0; i < 100; ++i) {
+        const Rgb c = ism::class_color(i);
+        colors.insert({c.r, c.g, c.b});
+    }
+    CHECK(colors.size() == 100);
+}
+
+TEST_CASE("Magnifying keeps what is even and the mean, and lies between its neighbours") {
+    RgbImage picture(3, 1);
+    picture(1, 0) = {90, 90, 90}, picture(2, 0) = {200, 0, 0};
+    CHECK(ism::magnified(picture, 1) == picture);
+    const RgbImage large = ism::magnified(picture, 3);
+    CHECK(large.width() == 9);
+    CHECK(large.height() == 3);
+    CHECK(large(1, 1) == picture(0, 0));
+    CHECK(large(4, 1) == picture(1, 0));
+    CHECK(large(2, 0) == Rgb{30, 30, 30});
+    CHECK_THROWS_AS(ism::magnified(picture, 0), ism::Error);
+}
