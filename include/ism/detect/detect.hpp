@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/frame.hpp"
 #include "ism/core/parallel.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/model.hpp"
@@ -31,7 +32,7 @@ struct DetectOptions {
     double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
     double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object
     MatchMode matching = MatchMode::all;
-    float min_vote_weight = 0;  ///< lighter votes are dropped
+    float min_vote_weight = 0.0005f;  ///< lighter votes are dropped
     MeanShiftOptions mean_shift = {};
     SegmentOptions segmentation = {};
     unsigned threads = 0;  ///< 0 = all the machine has

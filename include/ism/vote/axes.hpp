@@ -48,7 +48,7 @@ concept Axis = ContinuousAxis<A> || DiscreteAxis<A>;
 /// @brief x_f − x_i · s_f / s_i: where the object's centre would be (Eq 2).
 struct X {
     static constexpr std::string_view name = "x", unit = "px";
-    static constexpr double bandwidth = 10;
+    static constexpr double bandwidth = 40;
     static constexpr Growth growth = Growth::with_scale;
     static constexpr bool needs_depth = false;
     [[nodiscard]] static double vote(const Feature& f, const Occurrence& o) {
@@ -59,7 +59,7 @@ struct X {
 /// @brief y_f − y_i · s_f / s_i (Eq 2).
 struct Y {
     static constexpr std::string_view name = "y", unit = "px";
-    static constexpr double bandwidth = 10;
+    static constexpr double bandwidth = 40;
     static constexpr Growth growth = Growth::with_scale;
     static constexpr bool needs_depth = false;
     [[nodiscard]] static double vote(const Feature& f, const Occurrence& o) {
@@ -70,7 +70,7 @@ struct Y {
 /// @brief s_f / s_i (Eq 2): the object's size relative to the reference size.
 struct Scale {
     static constexpr std::string_view name = "s", unit = "";
-    static constexpr double bandwidth = 0.15;
+    static constexpr double bandwidth = 0.4;
     static constexpr Growth growth = Growth::with_scale;
     static constexpr bool needs_depth = false;
     [[nodiscard]] static double vote(const Feature& f, const Occurrence& o) { return scale_ratio(f, o); }

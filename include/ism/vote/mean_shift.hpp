@@ -142,8 +142,8 @@ private:
 
 /// @brief How modes are searched.
 struct MeanShiftOptions {
-    std::size_t max_starts = 200;  ///< heaviest bins of a label from which a search starts
-    double min_start = 0.05;       ///< a start's bin weighs at least this part of the label's heaviest
+    std::size_t max_starts = 30;  ///< heaviest bins of a label from which a search starts
+    double min_start = 0.05;      ///< a start's bin weighs at least this part of the label's heaviest
     int max_iterations = 50;
     double tolerance = 1e-3;  ///< a search ends where its step is shorter than this part of the window
 };
