@@ -20,6 +20,16 @@ struct DenseGrid {
     float scale_factor = 2;  ///< from one scale to the next, > 1
     int scale_count = 3;     ///< number of scales, ≥ 1
 
+    /// @brief Calls visit(name, value) for each option, for files.
+    template <class Self, class Visit>
+    static void each_parameter(Self& self, Visit&& visit) {
+        visit("spacing", self.spacing);
+        visit("margin", self.margin);
+        visit("first_scale", self.first_scale);
+        visit("scale_factor", self.scale_factor);
+        visit("scale_count", self.scale_count);
+    }
+
     /// @throws Error where an option is out of range.
     [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, unsigned /*threads*/) const {
         expect(spacing > 0, "grid spacing (scales)", "a positive number", spacing);

@@ -27,6 +27,14 @@ struct DifferenceOfGaussians {
     float edge_ratio = 10;             ///< at most this ratio of the principal curvatures, ≥ 1
     int border = 5;                    ///< pixels of the octave without features along the edge, ≥ 1
 
+    /// @brief Calls visit(name, value) for each option, for files.
+    template <class Self, class Visit>
+    static void each_parameter(Self& self, Visit&& visit) {
+        visit("contrast_threshold", self.contrast_threshold);
+        visit("edge_ratio", self.edge_ratio);
+        visit("border", self.border);
+    }
+
     /// @throws Error where an option is out of range.
     [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, unsigned threads) const {
         expect(contrast_threshold >= 0, "contrast_threshold", "0 or more", contrast_threshold);

@@ -29,6 +29,16 @@ struct HarrisLaplace {
     float scale_tolerance = 0.5f;    ///< octaves from the level searched to the extremum over scale
     int border = 5;                  ///< pixels of the octave without features along the edge
 
+    /// @brief Calls visit(name, value) for each option, for files.
+    template <class Self, class Visit>
+    static void each_parameter(Self& self, Visit&& visit) {
+        visit("threshold", self.threshold);
+        visit("alpha", self.alpha);
+        visit("least_laplacian", self.least_laplacian);
+        visit("scale_tolerance", self.scale_tolerance);
+        visit("border", self.border);
+    }
+
     /// @throws Error where an option is out of range.
     [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, unsigned threads) const {
         expect(threshold >= 0, "Harris threshold", "0 or more", threshold);
