@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+
+// Your own data: learns from labelled images, keeps the model, finds objects in other images, writes what was
+// found and measures it.
+//     02_own_data TRAIN.json TEST.json MODEL.safetensors RESULTS.json
+// The JSON files are COCO; an image may also have depth_file_name, depth_scale and camera.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wrestrict"  // gcc 12 warns of its own std::string (bug 105329)
+#endif
+
+#include <cstdio>
+#include <exception>
+
+#include "ism/core/frame.hpp"
+#include "ism/detect/detect.hpp"
+#include "ism/detect/train.hpp"
+#include "ism/evaluate/coco.hpp"
+#include "ism/evaluate/table.hpp"
+#include "ism/feature/hessian_laplace.hpp"
+#include "ism/feature/sift.hpp"
+#include "ism/io/coco.hpp"
+#include "ism/io/model_file.hpp"
+
+int main(int argc, char** argv) try {
+    if (argc != 5) {
+        std::fprintf(stderr, "usage: %s TRAIN.json TEST.json MODEL.safetensors RESULTS.json\n", argv[0]);
+        return 2;
+    }
+    // Images are read when they are needed, so a large set does not have to fit into memory.
+    const ism::Dataset lessons = ism::read_dataset(argv[1]);
+    const auto read = [&](std::size_t i) { return ism::read_training_image(lessons.images[i]); };
+    const auto model =
+        ism::train<ism::HessianLaplace, ism::RootSift>(lessons.class_names, lessons.images.size(), read);
+    ism::save_model(argv[3], model);  // later: ism::load_model<ism::HessianLaplace, ism::RootSift>(path)
+
+    const ism::Dataset scenes = ism::read_dataset(argv[2]);
+    std::vector<ism::Result> results;
+    for (const ism::DatasetImage& image : scenes.images) {
+        const ism::Frame frame = ism::read_frame(image);
+        const ism::Detections found = ism::detect<ism::Jism>(model, frame);
+        for (const ism::Detection& object : found.objects)
+            results.push_back({.image_id = image.id,
+                               .category_id = lessons.category_ids[object.class_index],
+                               .box = object.box,
+                               .score = object.score,
+                               .segmentation = ism::compress_mask(
+                                   ism::whole_mask(object.segmentation, image.width, image.height)),
+                               .position_m = object.position_m,
+                               .depth_m = object.depth_m,
+                               .scale = object.scale});
+    }
+    ism::write_results(argv[4], results);
+    std::fputs(ism::to_table(ism::evaluate(scenes, std::span<const ism::Result>(results))).c_str(), stdout);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+}

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ism/core/camera.hpp"
+#include "ism/detect/train.hpp"
+#include "ism/evaluate/coco.hpp"
+
+namespace program {
+
+/// The vote spaces by name, in the order of the paper's equations; indices are what find_objects() takes.
+inline constexpr std::array<std::string_view, 5> space_names = {"ism", "jism", "ji3sm1", "ji3sm2", "ji3sm3"};
+inline constexpr std::array<std::string_view, 4> detector_names = {"dog", "harris-laplace", "hessian-laplace",
+                                                                   "dense"};
+inline constexpr std::array<std::string_view, 2> descriptor_names = {"sift", "root-sift"};
+
+// What is taken where nothing is said; all else comes from the library.
+inline constexpr std::string_view default_detector = "hessian-laplace";
+inline constexpr std::string_view default_descriptor = "root-sift";
+inline constexpr std::string_view default_space = "jism";
+inline constexpr std::string_view default_verifier = "mdl";
+
+struct TrainCommand {
+    std::filesystem::path data, model;
+    std::vector<std::string> classes = {};  ///< none = all of the data set
+    std::string detector{default_detector}, descriptor{default_descriptor};
+    ism::TrainOptions options = {};
+    bool skip_bad = false;
+};
+
+/// How objects are searched for, whatever the vote space.
+struct SearchOptions {
+    std::string space{default_space}, verifier{default_verifier};
+    std::optional<double> keep = {};  ///< none = the library's
+};
+
+struct DetectCommand {
+    std::filesystem::path model;
+    std::filesystem::path data, image;  ///< one of them
+    std::filesystem::path depth = {};   ///< of `image`
+    double depth_scale = 0;             ///< metres per unit
+    std::optional<ism::Camera> camera = {};
+    SearchOptions search = {};
+    std::filesystem::path results;
+    std::filesystem::path overlay_folder = {}, report = {};  ///< empty = none
+    unsigned threads = 0;
+    bool skip_bad = false;
+};
+
+struct EvaluateCommand {
+    std::filesystem::path data, detections;
+    ism::EvaluateOptions options = {};
+    std::filesystem::path json = {}, plot = {};  ///< empty = none
+};
+
+struct DemoCommand {
+    std::filesystem::path folder = "ism-demo";
+    bool small = false;  ///< a few pictures only
+    std::uint64_t seed = 1;
+    unsigned threads = 0;
+};
+
+// Each runs a command, prints its summary on stdout, and throws ism::Error where something is wrong.
+void run_train(const TrainCommand& command);
+void run_detect(const DetectCommand& command);
+void run_evaluate(const EvaluateCommand& command);
+void run_demo(const DemoCommand& command);
+void run_info(const std::filesystem::path& model);
+
+}  // namespace program

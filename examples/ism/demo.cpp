@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "commands.hpp"
+#include "input.hpp"
+#include "models.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "toy/toy_set.hpp"
+
+#include "ism/core/parallel.hpp"
+#include "ism/evaluate/coco.hpp"
+#include "ism/evaluate/plot.hpp"
+#include "ism/evaluate/table.hpp"
+#include "ism/io/report_detections.hpp"
+
+namespace program {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Marks folders that a demo may write over.
+constexpr const char* marker = "made-by-ism-demo";
+
+/// What one vote space gives on the test scenes.
+struct SpaceOutcome {
+    std::vector<ism::Result> results;
+    ism::Evaluation evaluation;
+    ism::PrecisionRecall curve;     ///< of all classes together
+    double position_error_m = NAN;  ///< mean over what was found rightly
+    double milliseconds = 0;        ///< an image, on one thread
+};
+
+/// What the spaces find in one scene, by space.
+struct SceneOutcome {
+    std::array<std::vector<ism::Result>, space_names.size()> results;
+    std::array<double, space_names.size()> seconds{};
+};
+
+/// An own or empty folder, or one of an earlier demo.
+void prepare(const fs::path& folder) {
+    make_folder(folder);
+    const bool used = fs::directory_iterator(folder) != fs::directory_iterator();
+    ism::expect<ism::FileError>(!used || fs::exists(folder / marker), "folder '" + folder.string() + "'",
+                                "an empty one or one of an earlier demo", "other files in it");
+    ism::write_file(folder / marker, std::string_view());
+    make_folder(folder / "overlays");
+}
+
+toy::ToySetOptions toy_options(const DemoCommand& command) {
+    toy::ToySetOptions options;
+    options.seed = command.seed, options.threads = command.threads;
+    if (command.small) {
+        options.train_cars = options.train_others = 3;
+        options.test_scenes = 2;
+        options.picture.width = 320, options.picture.height = 240, options.picture.focal_px = 262.5;
+    }
+    return options;
+}
+
+SpaceOutcome measure(const toy::ToySet& set, std::vector<ism::Result> results) {
+    SpaceOutcome outcome{.results = std::move(results), .evaluation = {}, .curve = {}};
+    const std::span<const ism::Result> found = outcome.results;
+    outcome.evaluation = ism::evaluate(set.test, found);
+    std::vector<const toy::ToyObject*> truth;
+    for (const auto& objects : set.test_truth)
+        for (const toy::ToyObject& object : objects) truth.push_back(&object);
+    std::vector<ism::ScoredVerdict> verdicts;
+    double sum = 0;
+    std::size_t placed = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const ism::Judgement& judgement = outcome.evaluation.judgements[i];
+        const bool right = judgement.verdict == ism::Verdict::right;
+        verdicts.push_back({found[i].score, right});
+        if (!right || !found[i].position_m) continue;
+        const ism::Point3 a = *found[i].position_m, b = truth[judgement.truth]->position_m;
+        sum += std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+        ++placed;
+    }
+    if (placed > 0) outcome.position_error_m = sum / double(placed);
+    outcome.curve = ism::precision_recall(verdicts, truth.size());
+    return outcome;
+}
+
+std::vector<std::vector<std::string>> table_of(std::span<const SpaceOutcome> outcomes) {
+    std::vector<std::vector<std::string>> rows = {
+        {"space", "AP %", "EER %", "F1 %", "mask IoU %", "position error m", "ms/image"}};
+    for (std::size_t s = 0; s < outcomes.size(); ++s) {
+        const ism::Figures& mean = outcomes[s].evaluation.mean;
+        rows.push_back({std::string(space_names[s])});
+        for (const double share : {mean.ap, mean.eer, mean.best_f1, mean.mask_iou})
+            rows.back().push_back(ism::detail::percent_text(share));
+        char text[32] = "-";
+        if (!std::isnan(outcomes[s].position_error_m))
+            std::snprintf(text, sizeof text, "%.3f", outcomes[s].position_error_m);
+        rows.back().emplace_back(text);
+        std::snprintf(text, sizeof text, "%.0f", outcomes[s].milliseconds);
+        rows.back().emplace_back(text);
+    }
+    return rows;
+}
+
+ism::Plot plot_of(std::span<const SpaceOutcome> outcomes) {
+    ism::Plot plot{
+        .title = "Toy scenes (synthetic), all classes together", .x_label = "recall", .y_label = "precision"};
+    for (std::size_t s = 0; s < outcomes.size(); ++s) {
+        ism::PlotCurve curve{.name = std::string(space_names[s]), .color = ism::class_color(s)};
+        for (const ism::PrecisionRecallPoint& point : outcomes[s].curve.points) {
+            if (curve.x.empty()) curve.x.push_back(0), curve.y.push_back(point.precision);
+            curve.x.push_back(point.recall), curve.y.push_back(point.precision);
+        }
+        plot.curves.push_back(std::move(curve));
+    }
+    return plot;
+}
+
+/// One training picture of each class, side by side.
+ism::ReportSection lesson_section(const ism::Dataset& train) {
+    std::vector<ism::RgbImage> pictures;
+    int width = 0, height = 0;
+    for (std::size_t c = 0; c < train.class_names.size(); ++c) {
+        const auto image =
+            std::find_if(train.images.begin(), train.images.end(), [&](const ism::DatasetImage& i) {
+                return !i.objects.empty() && i.objects.front().class_index == c;
+            });
+        if (image == train.images.end()) continue;
+        pictures.push_back(ism::read_rgb(image->file));
+        width += pictures.back().width(), height = std::max(height, pictures.back().height());
+    }
+    ism::RgbImage row(width, height, ism::white);
+    int left = 0;
+    for (const ism::RgbImage& picture : pictures) {
+        for (int y = 0; y < picture.height(); ++y)
+            std::copy(picture.row(y).begin(), picture.row(y).end(), row.row(y).begin() + left);
+        left += picture.width();
+    }
+    ism::ReportSection section{.title = "Learnt from pictures like these"};
+    section.parts.push_back(ism::ReportPicture{list_text(train.class_names), ism::encode_png(row)});
+    return section;
+}
+
+}  // namespace
+
+void run_demo(const DemoCommand& command) {
+    constexpr std::size_t report_scenes = 6, report_rows = 2;
+    const Stopwatch watch;
+    const fs::path& folder = command.folder;
+    prepare(folder);
+    ProgressLine progress;
+    progress.tell("rendering toys", 0, 1);
+    const toy::ToySet set = toy::write_toy_set(folder, toy_options(command));
+    const double render_seconds = watch.seconds();
+
+    const Stopwatch train_watch;
+    Lessons lessons{.dataset = set.train, .options = {}};
+    lessons.options.threads = command.threads;
+    lessons.options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
+        progress.tell(stage, done, total);
+    };
+    const AnyModel model = learn_any(default_detector, default_descriptor, lessons);
+    save_any(folder / "model.safetensors", model);
+    const ism::Shapes& shapes = shapes_of(model);
+    const double train_seconds = train_watch.seconds();
+
+    const std::size_t count = set.test.images.size();
+    const OverlayFiles overlays(folder / "overlays", set.test);
+    std::vector<SceneOutcome> scenes(count);
+    std::vector<ism::ReportSection> sections(std::min(count, report_scenes));
+    ism::parallel_for(count, command.threads, [&](std::size_t i) {
+        const ism::DatasetImage& image = set.test.images[i];
+        const ism::Frame frame = ism::read_frame(image);
+        const Stopwatch look_watch;
+        const Matched matched = look_up_any(model, frame, 1);
+        const double look_seconds = look_watch.seconds();
+        for (std::size_t s = 0; s < space_names.size(); ++s) {
+            SearchOptions search;
+            search.space = space_names[s];
+            const Stopwatch search_watch;
+            const ism::Detections found = find_objects(matched, shapes, frame, search, 1);
+            scenes[i].seconds[s] = look_seconds + search_watch.seconds();
+            scenes[i].results[s] = to_results(found, image, set.test.category_ids);
+            if (space_names[s] != default_space) continue;
+            const ism::RgbImage picture = ism::read_rgb(image.file);
+            overlays.write(i, picture, found, shapes.class_names);
+            if (i < sections.size())
+                sections[i] = ism::detection_section(
+                    ism::join_text("Scene ", i + 1, ", found in space ", default_space), picture, found,
+                    shapes.class_names, {.rows = report_rows});
+        }
+        progress.step("detecting in five vote spaces", count);
+    });
+
+    std::vector<SpaceOutcome> outcomes;
+    for (std::size_t s = 0; s < space_names.size(); ++s) {
+        std::vector<ism::Result> results;
+        double seconds = 0;
+        for (const SceneOutcome& scene : scenes) {
+            results.insert(results.end(), scene.results[s].begin(), scene.results[s].end());
+            seconds += scene.seconds[s];
+        }
+        ism::write_results(folder / ism::join_text("detections-", space_names[s], ".json"), results);
+        outcomes.push_back(measure(set, std::move(results)));
+        outcomes.back().milliseconds = 1000 * seconds / double(count);
+    }
+
+    const std::string what = "synthetic: toys and tables were rendered, nothing was photographed";
+    const std::string plot = ism::to_svg(plot_of(outcomes));
+    const auto rows = table_of(outcomes);
+    ism::Report report{.title = "ism demo on synthetic toy scenes"};
+    report.summary = {
+        {"pictures", what},
+        {"learnt from", ism::join_text(set.train.images.size(), " pictures of single toys, ",
+                                       shapes.objects.size(), " toys")},
+        {"tested on", ism::join_text(count, " cluttered tables with other toys of the same kinds")},
+        {"classes", list_text(shapes.class_names)},
+        {"features", ism::join_text(default_detector, ", ", default_descriptor)},
+        {"model",
+         ism::join_text(shapes.first.size() - 1, " words, ", shapes.occurrences.size(), " occurrences")}};
+    ism::ReportSection figures{.title = "How well the toys were found"};
+    figures.parts.push_back(ism::ReportTable{
+        .caption = "Means over the classes; a box is right from an IoU of 0.5. Position: from the middle of "
+                   "the toy. Time: one thread.",
+        .header = rows.front(),
+        .rows = {rows.begin() + 1, rows.end()}});
+    figures.parts.push_back(ism::ReportPlot{plot});
+    report.sections.push_back(std::move(figures));
+    report.sections.push_back(lesson_section(set.train));
+    std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
+    ism::write_file(folder / "pr.svg", plot);
+    ism::write_file(folder / "report.html", ism::to_html(report));
+
+    progress.clear();
+    std::printf("Toy scenes (%s).\n", what.c_str());
+    std::printf("%zu classes (%s), %zu training pictures, %zu test scenes.\n", shapes.class_names.size(),
+                list_text(shapes.class_names).c_str(), set.train.images.size(), count);
+    std::printf("Rendered in %.0f s, learnt in %.1f s.\n\n", render_seconds, train_seconds);
+    std::fputs(ism::align_columns(rows).c_str(), stdout);
+    std::printf("\nMeans over the classes; a box is right from an IoU of 0.5; one thread an image.\n");
+    std::printf("Report: %s. All in %.0f s.\n", (folder / "report.html").string().c_str(), watch.seconds());
+}
+
+}  // namespace program

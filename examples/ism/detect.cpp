@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdio>
+
+#include "commands.hpp"
+#include "input.hpp"
+#include "models.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+
+#include "ism/core/parallel.hpp"
+#include "ism/io/coco.hpp"
+#include "ism/io/report_detections.hpp"
+
+namespace program {
+
+namespace {
+
+/// Pictures in a report: of so many images, with the four pictures of so many detections each.
+constexpr std::size_t report_images = 12, report_rows = 2;
+
+/// The one image of the command line as a data set; class c of the model has the number c + 1.
+ism::Dataset single_image(const DetectCommand& command, const ism::Shapes& shapes) {
+    ism::Dataset dataset{.source = {}, .class_names = shapes.class_names};
+    for (std::size_t c = 0; c < shapes.class_names.size(); ++c)
+        dataset.category_ids.push_back(std::int64_t(c) + 1);
+    const ism::RgbImage picture = ism::read_rgb(command.image);
+    dataset.images.push_back({.id = 1,
+                              .file = command.image,
+                              .depth_file = command.depth,
+                              .width = picture.width(),
+                              .height = picture.height(),
+                              .depth_scale = command.depth_scale,
+                              .camera = command.camera});
+    return dataset;
+}
+
+/// The data set's number of each class of the model.
+std::vector<std::int64_t> category_ids(const ism::Dataset& dataset, const ism::Shapes& shapes) {
+    std::vector<std::int64_t> ids;
+    for (const std::string& name : shapes.class_names) {
+        const auto found = std::find(dataset.class_names.begin(), dataset.class_names.end(), name);
+        if (found == dataset.class_names.end())
+            throw ism::Error(ism::join_text("class '", name, "' of the model: expected a class of '",
+                                            dataset.source.string(), "' (", list_text(dataset.class_names),
+                                            "), got none of this name; the model has ",
+                                            list_text(shapes.class_names)));
+        ids.push_back(dataset.category_ids[std::size_t(found - dataset.class_names.begin())]);
+    }
+    return ids;
+}
+
+/// @throws ism::Error where the space needs depth and no image has a depth file.
+void check_depth(const DetectCommand& command, const ism::Dataset& dataset) {
+    if (!needs_depth(command.search.space)) return;
+    const bool any = std::any_of(dataset.images.begin(), dataset.images.end(),
+                                 [](const ism::DatasetImage& image) { return !image.depth_file.empty(); });
+    ism::expect(any, "vote space " + command.search.space,
+                command.image.empty() ? "depth_file_name in '" + command.data.string() + "'" : "--depth",
+                "no depth");
+}
+
+}  // namespace
+
+void run_detect(const DetectCommand& command) {
+    const Stopwatch watch;
+    for (const auto& output : {command.results, command.report})
+        if (!output.empty())
+            check_output(output, std::array{command.model, command.data, command.image, command.depth});
+    ism::expect(command.report.empty() || command.report != command.results, "report", "another file than -o",
+                "the same");
+    const AnyModel model = load_any(command.model);
+    const ism::Shapes& shapes = shapes_of(model);
+    ism::Dataset dataset =
+        command.image.empty() ? ism::read_dataset(command.data) : single_image(command, shapes);
+    const std::vector<std::int64_t> ids = category_ids(dataset, shapes);
+    check_depth(command, dataset);
+    const std::size_t skipped =
+        check_images(dataset, command.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
+            if (needs_depth(command.search.space) && image.depth_file.empty())
+                throw ism::FileError(ism::detail::file_text(image.file) +
+                                     ": expected a depth image beside it, got none");
+            (void)ism::read_frame(image);
+        });
+    std::optional<OverlayFiles> overlays;
+    if (!command.overlay_folder.empty()) {
+        overlays.emplace(command.overlay_folder, dataset);
+        make_folder(command.overlay_folder);
+    }
+
+    const std::size_t count = dataset.images.size();
+    std::vector<std::vector<ism::Result>> results(count);
+    std::vector<ism::ReportSection> sections(command.report.empty() ? 0 : std::min(count, report_images));
+    const Stopwatch search_watch;
+    {
+        ProgressLine progress;
+        ism::parallel_for(count, command.threads, [&](std::size_t i) {
+            const ism::DatasetImage& image = dataset.images[i];
+            const unsigned inner = count > 1 ? 1 : command.threads;
+            const ism::Frame frame = ism::read_frame(image);
+            const ism::Detections found =
+                find_objects(look_up_any(model, frame, inner), shapes, frame, command.search, inner);
+            results[i] = to_results(found, image, ids);
+            if (overlays || i < sections.size()) {
+                const ism::RgbImage picture = ism::read_rgb(image.file);
+                if (overlays) overlays->write(i, picture, found, shapes.class_names);
+                if (i < sections.size())
+                    sections[i] = ism::detection_section(
+                        command.image.empty() ? short_name(dataset, image) : image.file.filename().string(),
+                        picture, found, shapes.class_names, {.rows = report_rows});
+            }
+            progress.step("detecting", count);
+        });
+    }
+    const double search_seconds = search_watch.seconds();
+
+    std::vector<ism::Result> all;
+    for (auto& part : results) std::move(part.begin(), part.end(), std::back_inserter(all));
+    if (!command.report.empty()) {
+        ism::Report report{.title = "Detections"};
+        report.summary = {{"model", command.model.filename().string()},
+                          {"classes", list_text(shapes.class_names)},
+                          {"vote space", command.search.space},
+                          {"images", std::to_string(count)},
+                          {"detections", std::to_string(all.size())}};
+        if (sections.size() < count)
+            report.summary.emplace_back("shown here",
+                                        ism::join_text("the first ", sections.size(), " images"));
+        report.sections = std::move(sections);
+        ism::write_file(command.report, ism::to_html(report));
+    }
+    ism::write_results(command.results, all);
+    std::printf("images      %zu\n", count);
+    if (skipped > 0) std::printf("skipped     %zu\n", skipped);
+    std::printf("detections  %zu\n", all.size());
+    std::printf("seconds     %.1f\n", watch.seconds());
+    std::printf("ms/image    %.0f (%u threads)\n", 1000 * search_seconds / double(count),
+                ism::thread_count(command.threads));
+}
+
+}  // namespace program

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+
+#include "commands.hpp"
+#include "input.hpp"
+
+#include "ism/evaluate/coco.hpp"
+#include "ism/evaluate/plot.hpp"
+#include "ism/evaluate/table.hpp"
+#include "ism/io/coco.hpp"
+
+namespace program {
+
+void run_evaluate(const EvaluateCommand& command) {
+    for (const auto& output : {command.json, command.plot})
+        if (!output.empty()) check_output(output, std::array{command.data, command.detections});
+    const ism::Dataset dataset = ism::read_dataset(command.data);
+    const std::vector<ism::Result> results = ism::read_results(command.detections);
+    const ism::Evaluation evaluation = ism::detail::at_place(ism::detail::file_text(command.detections), [&] {
+        return ism::evaluate(dataset, std::span<const ism::Result>(results), command.options);
+    });
+    if (!command.json.empty()) ism::write_file(command.json, ism::to_json(evaluation) + "\n");
+    if (!command.plot.empty())
+        ism::write_file(command.plot, ism::to_svg(ism::precision_recall_plot(evaluation)));
+    std::fputs(ism::to_table(evaluation).c_str(), stdout);
+}
+
+}  // namespace program

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include "input.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <random>
+#include <system_error>
+
+#include "progress.hpp"
+
+#include "ism/core/parallel.hpp"
+#include "ism/io/coco_write.hpp"
+#include "ism/io/write_file.hpp"
+
+namespace program {
+
+namespace fs = std::filesystem;
+
+std::string short_name(const ism::Dataset& dataset, const ism::DatasetImage& image) {
+    return ism::detail::path_to_json(ism::detail::relative_to(image.file, dataset.source.parent_path()));
+}
+
+std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
+                         const std::function<void(const ism::DatasetImage&)>& read) {
+    constexpr std::size_t most_named = 20;
+    const std::size_t count = dataset.images.size();
+    std::vector<std::optional<std::string>> faults(count);
+    {
+        ProgressLine progress;
+        ism::parallel_for(count, threads, [&](std::size_t i) {
+            try {
+                read(dataset.images[i]);
+            } catch (const ism::Error& error) {
+                faults[i] = error.what();
+            }
+            progress.step("checking images", count);
+        });
+    }
+    if (count == 1 && faults[0]) throw ism::Error(*faults[0]);
+    std::vector<ism::DatasetImage> good;
+    std::size_t bad = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!faults[i]) {
+            good.push_back(std::move(dataset.images[i]));
+        } else if (++bad <= most_named) {
+            std::fprintf(stderr, "ism: %s\n", faults[i]->c_str());
+        }
+    }
+    if (bad > most_named) std::fprintf(stderr, "ism: ... and %zu more\n", bad - most_named);
+    if (bad > 0 && !skip_bad)
+        throw ism::Error(
+            ism::join_text(bad, " of ", count,
+                           " images cannot be used; nothing was written (--skip-bad goes on without them)"));
+    ism::expect(!good.empty(), "images that can be used", "1 or more", ism::join_text("none of ", count));
+    dataset.images = std::move(good);
+    return bad;
+}
+
+void check_output(const fs::path& file, std::span<const fs::path> inputs) {
+    const std::string text = ism::detail::file_text(file);
+    std::error_code failure;
+    if (file.filename().empty()) throw ism::FileError(text + ": expected a file to write, got no file name");
+    if (fs::is_directory(file, failure))
+        throw ism::FileError(text + ": expected a file to write, got a folder");
+    for (const fs::path& input : inputs)
+        if (!input.empty() && fs::equivalent(file, input, failure) && !failure)
+            throw ism::FileError(text + ": expected another file than an input, got one");
+    if (fs::exists(file, failure) && !fs::is_regular_file(file, failure)) return;
+    const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
+    if (!fs::is_directory(folder, failure))
+        throw ism::FileError(text + ": expected an existing folder to write to, got none");
+    // Writing at one stroke makes a file beside it: whether that works is known only by doing it.
+    std::random_device device;
+    const fs::path probe = folder / ism::join_text(".ism-", std::hex, device(), device());
+    try {
+        ism::write_file(probe, std::string_view());
+    } catch (const ism::FileError&) {
+        throw ism::FileError(text + ": expected a folder that can be written to, got one that cannot");
+    }
+    fs::remove(probe, failure);
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code failure;
+    const std::string text = "folder '" + folder.string() + "'";
+    if (fs::exists(folder, failure) && !fs::is_directory(folder, failure))
+        throw ism::FileError(text + ": expected a folder, got a file");
+    fs::create_directories(folder, failure);
+    if (failure) throw ism::FileError(text + ": expected to make it, got " + failure.message());
+    check_output(folder / "ism", {});
+}
+
+}  // namespace program

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ism/core/error.hpp"
+#include "ism/io/dataset.hpp"
+
+namespace program {
+
+/// "a, b, c".
+template <class Texts>
+[[nodiscard]] std::string list_text(const Texts& texts) {
+    std::string list;
+    for (const auto& text : texts) {
+        if (!list.empty()) list += ", ";
+        list += text;
+    }
+    return list;
+}
+
+/// The name of an image as seen from its data set's folder.
+[[nodiscard]] std::string short_name(const ism::Dataset& dataset, const ism::DatasetImage& image);
+
+/// Reads every image once by `read`, and throws or leaves out those for which it throws.
+/// With `skip_bad` the bad ones are named on stderr and removed; else they are named and ism::Error is
+/// thrown.
+/// @return how many were left out
+std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
+                         const std::function<void(const ism::DatasetImage&)>& read);
+
+/// Throws ism::FileError unless a file can be written there: its folder exists and can be written to, and the
+/// file is none of `inputs`.
+void check_output(const std::filesystem::path& file, std::span<const std::filesystem::path> inputs);
+
+/// Makes a folder where there is none yet, and throws ism::FileError unless files can be written there.
+void make_folder(const std::filesystem::path& folder);
+
+}  // namespace program

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include "output.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "ism/io/overlay.hpp"
+#include "ism/io/png.hpp"
+#include "ism/io/rle.hpp"
+
+namespace program {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> files_of(const std::string& stem) {
+    std::vector<std::string> files = {stem + ".png"};
+    for (std::size_t row = 1; row <= OverlayFiles::rows; ++row)
+        files.push_back(ism::join_text(stem, "_", row, ".png"));
+    return files;
+}
+
+}  // namespace
+
+OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset) : folder_(std::move(folder)) {
+    std::set<fs::path> inputs;
+    for (const ism::DatasetImage& image : dataset.images)
+        for (const fs::path& file : {image.file, image.depth_file})
+            if (!file.empty()) inputs.insert(fs::weakly_canonical(file));
+    std::set<std::string> taken;
+    for (const ism::DatasetImage& image : dataset.images) {
+        const std::string base = image.file.stem().string();
+        std::string stem = base;
+        const auto is_taken = [&] {
+            const auto files = files_of(stem);
+            return std::any_of(files.begin(), files.end(), [&](const auto& f) { return taken.contains(f); });
+        };
+        for (int number = 2; is_taken(); ++number) stem = ism::join_text(base, "-", number);
+        for (const std::string& file : files_of(stem)) {
+            if (inputs.contains(fs::weakly_canonical(folder_ / file)))
+                throw ism::FileError(ism::detail::file_text(folder_ / file) +
+                                     ": expected another folder for overlays than that of the images");
+            taken.insert(file);
+        }
+        stems_.push_back(std::move(stem));
+    }
+}
+
+void OverlayFiles::write(std::size_t i, const ism::RgbImage& picture, const ism::Detections& detections,
+                         std::span<const std::string> class_names) const {
+    const auto files = files_of(stems_[i]);
+    ism::write_png(folder_ / files[0], ism::overlay_all(picture, detections, class_names));
+    for (std::size_t row = 0; row < std::min(rows, detections.objects.size()); ++row)
+        ism::write_png(folder_ / files[row + 1], ism::overlay_row(picture, detections, row, class_names));
+}
+
+std::vector<ism::Result> to_results(const ism::Detections& detections, const ism::DatasetImage& image,
+                                    std::span<const std::int64_t> category_ids) {
+    std::vector<ism::Result> results;
+    for (const ism::Detection& found : detections.objects)
+        results.push_back({.image_id = image.id,
+                           .category_id = category_ids[found.class_index],
+                           .box = found.box,
+                           .score = found.score,
+                           .segmentation = ism::compress_mask(
+                               ism::whole_mask(found.segmentation, image.width, image.height)),
+                           .position_m = found.position_m,
+                           .depth_m = found.depth_m,
+                           .scale = found.scale});
+    return results;
+}
+
+}  // namespace program

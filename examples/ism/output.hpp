@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "models.hpp"
+
+#include "ism/core/image.hpp"
+#include "ism/io/coco_results.hpp"
+#include "ism/io/report.hpp"
+
+namespace program {
+
+/// The pictures of detections: for each image one with all of them and a row of four for the strongest.
+class OverlayFiles {
+public:
+    static constexpr std::size_t rows = 3;
+
+    /// Chooses file names in `folder` that are all different: the image's name without its ending, with a
+    /// number where that is taken.
+    /// @throws ism::FileError where a name is that of an image of the data set.
+    OverlayFiles(std::filesystem::path folder, const ism::Dataset& dataset);
+
+    /// Writes those of image i.
+    void write(std::size_t i, const ism::RgbImage& picture, const ism::Detections& detections,
+               std::span<const std::string> class_names) const;
+
+private:
+    std::filesystem::path folder_;
+    std::vector<std::string> stems_;
+};
+
+/// Detections as results of an image.
+[[nodiscard]] std::vector<ism::Result> to_results(const ism::Detections& detections,
+                                                  const ism::DatasetImage& image,
+                                                  std::span<const std::int64_t> category_ids);
+
+}  // namespace program

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
+
+# Bad images are all named, and --skip-bad goes on without them.
+make_toys
+"$ism" train --data toys/train.json -o whole >/dev/null
+cp -r toys bad
+rm bad/train/train-0000.png
+head -c 3000 toys/train/train-0001.png >bad/train/train-0001.png
+echo "no picture" >bad/train/train-0002-depth.png
+refused "3 of 24 images cannot be used; nothing was written" "$ism" train --data bad/train.json -o out
+(($(wc -l <stderr.txt) == 4)) || fail "expected three images and a line, got: $(cat stderr.txt)"
+for name in train-0000.png train-0001.png train-0002-depth.png; do says "$name" stderr.txt; done
+
+"$ism" train --data bad/train.json -o skipped --skip-bad >train.txt 2>train.err || fail "--skip-bad: $(cat train.err)"
+says "images       21" train.txt
+says "skipped      3" train.txt
+(($(wc -l <train.err) == 3)) || fail "expected three images, got: $(cat train.err)"
+
+# The model is that of the images left.
+for number in 0000 0001 0002; do rm -f bad/train/train-$number.png; done
+"$ism" train --data bad/train.json -o again --skip-bad >/dev/null 2>&1
+cmp skipped again || fail "--skip-bad: another model"
+! cmp -s skipped whole || fail "--skip-bad: nothing was skipped"
+
+# A long list is cut after 20, and nothing left is an error.
+rm bad/train/*.png
+refused "and 4 more" "$ism" train --data bad/train.json -o out
+(($(wc -l <stderr.txt) == 22)) || fail "expected 20 images and two lines, got: $(cat stderr.txt)"
+refused "images that can be used: expected 1 or more" "$ism" train --data bad/train.json -o out --skip-bad
+
+rm bad/test/test-0000-depth.png
+refused "1 of 2 images" "$ism" detect --model whole --data bad/test.json -o out
+"$ism" detect --model whole --data bad/test.json -o found --skip-bad >detect.txt 2>/dev/null
+says "skipped     1" detect.txt
+says '"image_id":2,' found
+! grep -qF '"image_id":1,' found || fail "detections in an image that was skipped"
+
+# An image without depth among others with it.
+sed '0,/"depth_file_name":"[^"]*",/s///' toys/test.json >toys/part.json
+refused "expected a depth image beside it" "$ism" detect --model whole --data toys/part.json -o out --space ji3sm2

@@ -1,0 +1,38 @@
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+# Read by the tests beside it: <program ism> <empty folder>.
+set -euo pipefail
+ism=$1
+cd "$2"
+
+fail() {
+    echo "FAILED: $*" >&2
+    exit 1
+}
+
+# A toy set of a few small pictures in toys/: train.json, test.json, model.safetensors.
+make_toys() {
+    "$ism" demo --small -o toys --threads 2 >demo.txt 2>demo.err || fail "demo: $(cat demo.err)"
+}
+
+# refused <text> <command...>: ends with 2, says `text` on stderr, nothing on stdout, and leaves no file out*.
+refused() {
+    local text=$1 code=0
+    shift
+    "$@" >stdout.txt 2>stderr.txt || code=$?
+    ((code == 2)) || fail "$*: expected exit code 2, got $code: $(cat stderr.txt)"
+    grep -qF -- "$text" stderr.txt || fail "$*: expected '$text', got: $(cat stderr.txt)"
+    [[ ! -s stdout.txt ]] || fail "$*: expected nothing on stdout, got: $(cat stdout.txt)"
+    ! compgen -G 'out*' >/dev/null || fail "$*: left $(echo out*)"
+}
+
+# refused_in_a_line: the same, and stderr is one line.
+refused_in_a_line() {
+    refused "$@"
+    (($(wc -l <stderr.txt) == 1)) || fail "$*: expected one line, got: $(cat stderr.txt)"
+}
+
+# says <text> <file>
+says() {
+    grep -qF -- "$1" "$2" || fail "$2: expected '$1', got: $(cat "$2")"
+}

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
+
+# Train, detect, evaluate on a few toys; the same files for any number of threads.
+make_toys
+for threads in 1 2 3; do
+    "$ism" train --data toys/train.json -o model-$threads --threads $threads >train.txt
+    "$ism" detect --model model-$threads --data toys/test.json -o found-$threads --space ji3sm3 \
+        --report report-$threads.html --overlay overlay-$threads --threads $threads >detect.txt
+done
+for threads in 2 3; do
+    cmp model-1 model-$threads || fail "another model with $threads threads"
+    cmp found-1 found-$threads || fail "other detections with $threads threads"
+    diff -r overlay-1 overlay-$threads || fail "other overlays with $threads threads"
+    # (the report names the model, so only its size is compared)
+    (($(wc -c <report-1.html) == $(wc -c <report-$threads.html))) || fail "another report with $threads threads"
+done
+for line in "images       24" "objects      24" "words        " "occurrences  " "upsampling   " "seconds      "; do
+    says "$line" train.txt
+done
+for line in "images      2" "detections  " "ms/image    "; do says "$line" detect.txt; done
+for key in '"image_id":1,' '"category_id":' '"bbox":[' '"segmentation":{' '"position_m":[' '"depth_m":' '"scale":'; do
+    says "$key" found-1
+done
+[[ -s overlay-1/test-0000.png && -s overlay-1/test-0000_1.png && -s overlay-1/test-0001.png ]] || fail "overlays: $(ls overlay-1)"
+
+"$ism" evaluate --data toys/test.json --detections found-1 --json figures.json --plot pr.svg >figures.txt
+says "mean " figures.txt
+says '"best_f1"' figures.json
+says "<svg" pr.svg
+"$ism" evaluate --data toys/test.json --detections found-1 --rule uiuc >uiuc.txt
+"$ism" evaluate --data toys/test.json --detections found-1 --iou 0.9 >strict.txt
+! cmp -s figures.txt strict.txt || fail "--iou changes nothing"
+
+"$ism" info model-1 >info.txt
+says "hessian-laplace" info.txt
+says "car, mug, duck, robot" info.txt
+
+# One class alone, and a class's own words.
+"$ism" train --data toys/train.json -o cars --class car --detector dog --descriptor sift >cars.txt
+says "classes      car" cars.txt
+says "objects      6" cars.txt
+"$ism" detect --model cars --data toys/test.json -o found-cars --space ism --verify nms --keep 0.5 >/dev/null
+! grep -v '"category_id":1,' found-cars | grep -q category_id || fail "detections of classes that were not learnt"
+"$ism" train --data toys/train.json -o own --codebook per-class --class robot --class duck --similarity 0.85 \
+    --min-cluster-size 3 --min-information-gain 1e-6 --seed 4 >own.txt
+says "classes      robot, duck" own.txt
+"$ism" detect --model own --data toys/test.json -o found-own >/dev/null
+
+# One image without a data set: number 1, classes numbered from 1 in the model's order.
+"$ism" detect --model model-1 toys/test/test-0000.png --depth toys/test/test-0000-depth.png --depth-scale 0.001 \
+    --camera 262.5,262.5,159.5,119.5 --space ji3sm3 -o found-single >/dev/null
+grep -F '"image_id":1,' found-1 | sed 's/,$//' >expected
+grep -F '"image_id":1,' found-single | sed 's/,$//' >single
+cmp expected single || fail "one image is not detected as the same image of a data set"
+
+# A model written to what is no file.
+"$ism" train --data toys/train.json -o /dev/null >/dev/null
