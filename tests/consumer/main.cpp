@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "ism/core/image.hpp"
-#include "ism/version.hpp"
+#include "ism/ism.hpp"
 
 float brightness_elsewhere(const ism::RgbImage& image);  // second.cpp
 
@@ -11,5 +13,18 @@ int main() {
     const ism::RgbImage white(4, 3, {255, 255, 255});
     std::printf("ism %s\n", ism::version_text);
     const float here = ism::to_gray(white)(3, 2);
-    return here > 0.99f && here == brightness_elsewhere(white) ? 0 : 1;
+
+    // A few bright squares, learnt and found again.
+    std::vector<ism::TrainingImage> images(2);
+    for (auto& image : images) {
+        image.frame.gray = ism::GrayImage(96, 96, 0.2f);
+        for (int i = 0; i < 96 * 96; ++i)
+            if ((i % 96 / 8 * 7 + i / 96 / 8 * 3) % 5 < 2) image.frame.gray(i % 96, i / 96) = 0.9f;
+        image.objects.push_back({.class_index = 0, .box = {16, 16, 64, 64}});
+    }
+    const std::vector<std::string> names{"pattern"};
+    const auto model = ism::train<ism::HessianLaplace, ism::RootSift>(names, images);
+    const auto found = ism::detect<ism::Jism>(model, images[0].frame);
+    std::printf("%zu words, %zu found\n", model.codebook.size(), found.objects.size());
+    return here > 0.99f && here == brightness_elsewhere(white) && !found.objects.empty() ? 0 : 1;
 }

@@ -1,0 +1,6 @@
+// expect: DescriptorScalar
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include "ism/feature/feature.hpp"
+
+ism::Descriptors<double, 3> descriptors;

@@ -1,0 +1,6 @@
+// expect: AnyVoteSpace
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include "ism/detect/detect.hpp"
+
+ism::DetectOptions<ism::X> options;

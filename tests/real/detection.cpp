@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+//
+// The whole way on real images, with the defaults. Floors stand a little below what was measured when they
+// were set; the README has the figures and the commands that print them.
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/data.hpp"
+
+#include "ism/core/parallel.hpp"
+#include "ism/detect/detect.hpp"
+#include "ism/detect/train.hpp"
+#include "ism/evaluate/evaluate.hpp"
+#include "ism/feature/hessian_laplace.hpp"
+#include "ism/feature/sift.hpp"
+#include "ism/io/coco.hpp"
+
+namespace {
+
+using Model = ism::Model<ism::HessianLaplace, ism::RootSift>;
+
+Model trained_on(const ism::Dataset& data) {
+    return ism::train<ism::HessianLaplace, ism::RootSift>(
+        data.class_names, data.images.size(),
+        [&](std::size_t i) { return ism::read_training_image(data.images[i]); });
+}
+
+template <ism::AnyVoteSpace Space, ism::MatchRule Rule = ism::IouRule>
+ism::Evaluation evaluated(const Model& model, const ism::Dataset& data, const Rule& rule = {}) {
+    std::vector<ism::Detections> found(data.images.size());
+    ism::parallel_for(data.images.size(), 0, [&](std::size_t i) {
+        found[i] = ism::detect<Space>(model, ism::read_frame(data.images[i]), {.threads = 1});
+    });
+    std::vector<ism::TruthObject> truth;
+    std::vector<std::pair<const ism::DatasetImage*, const ism::DatasetAnnotation*>> annotation_of;
+    std::vector<ism::FoundObject> objects;
+    std::vector<const ism::Segmentation*> segmentation_of;
+    for (std::size_t i = 0; i < data.images.size(); ++i) {
+        for (const auto& object : data.images[i].objects) {
+            truth.push_back({.image = i, .class_index = object.class_index, .box = object.box});
+            annotation_of.emplace_back(&data.images[i], &object);
+        }
+        for (const auto& object : ism::found_objects(found[i].objects, i)) objects.push_back(object);
+        for (const auto& object : found[i].objects) segmentation_of.push_back(&object.segmentation);
+    }
+    const auto overlap = [&](std::size_t f, std::size_t t) {
+        const auto& [image, annotation] = annotation_of[t];
+        const ism::Mask mask = ism::read_mask(*image, *annotation);
+        if (mask.empty()) return std::numeric_limits<double>::quiet_NaN();
+        return ism::mask_iou(ism::whole_mask(*segmentation_of[f], image->width, image->height), mask);
+    };
+    return ism::evaluate(truth, objects, data.images.size(), data.class_names, rule, overlap);
+}
+
+}  // namespace
+
+TEST_CASE("uiuc-cars: equal error rate by the official rule") {
+    const auto train = ism::test::find_data("uiuc-cars/train.json"),
+               test = ism::test::find_data("uiuc-cars/test.json");
+    if (!train || !test) return;
+    const auto result = evaluated<ism::Jism>(trained_on(ism::read_dataset(*train)), ism::read_dataset(*test),
+                                             ism::UiucRule{});
+    CHECK(result.mean.eer >= 0.88);
+}
+
+TEST_CASE("weizmann-horses: masks and detection") {
+    const auto train = ism::test::find_data("weizmann-horses/train.json");
+    const auto val = ism::test::find_data("weizmann-horses/val.json");
+    if (!train || !val) return;
+    const auto result = evaluated<ism::Jism>(trained_on(ism::read_dataset(*train)), ism::read_dataset(*val));
+    CHECK(result.mean.mask_iou >= 0.6);
+    CHECK(result.mean.eer >= 0.75);
+}
+
+TEST_CASE("four-class: classification by the joint model") {
+    const auto train = ism::test::find_data("four-class/train.json"),
+               test = ism::test::find_data("four-class/test.json");
+    if (!train || !test) return;
+    const auto result = evaluated<ism::Jism>(trained_on(ism::read_dataset(*train)), ism::read_dataset(*test));
+    REQUIRE(result.confusion);
+    CHECK(result.confusion->accuracy() >= 0.68);
+}
+
+TEST_CASE("osd: flat and depth spaces with one model") {
+    const auto train = ism::test::find_data("osd/train.json"), val = ism::test::find_data("osd/val.json");
+    if (!train || !val) return;
+    const auto model = trained_on(ism::read_dataset(*train));
+    const auto data = ism::read_dataset(*val);
+    CHECK(evaluated<ism::Jism>(model, data).mean.ap >= 0.25);
+    CHECK(evaluated<ism::Ji3sm1>(model, data).mean.ap >= 0.25);
+    CHECK(evaluated<ism::Ji3sm2>(model, data).mean.ap >= 0.22);
+    CHECK(evaluated<ism::Ji3sm3>(model, data).mean.ap >= 0.27);
+}
