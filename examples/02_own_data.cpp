@@ -5,10 +5,6 @@
 // found and measures it.
 //     02_own_data TRAIN.json TEST.json MODEL.safetensors RESULTS.json
 // The JSON files are COCO; an image may also have depth_file_name, depth_scale and camera.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wrestrict"  // gcc 12 warns of its own std::string (bug 105329)
-#endif
-
 #include <cstdio>
 #include <exception>
 

@@ -1,9 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wrestrict"  // gcc 12 warns of its own std::string (bug 105329)
-#endif
-
 #include "models.hpp"
 
 #include "input.hpp"

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wrestrict"  // gcc 12 warns of its own std::string (bug 105329)
-#endif
-
 #include <filesystem>
 #include <utility>
 

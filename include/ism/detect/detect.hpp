@@ -27,7 +27,7 @@ namespace ism {
 template <AnyVoteSpace Space>
 struct DetectOptions {
     Bandwidth<Space::dimension> bandwidth = default_bandwidth<Space>();
-    double keep = 0.2;  ///< T_ratio: weaker hypotheses than this part of the strongest are dropped
+    double keep = 0.05;  ///< T_ratio: weaker hypotheses than this part of the strongest are dropped
     std::size_t max_hypotheses = 40;  ///< so many of the strongest are cut out and verified
     double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
     double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object

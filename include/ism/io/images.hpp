@@ -105,10 +105,9 @@ template <class Sample>
     const detail::ImageFile file = detail::open_image(path);
     const bool colored = file.channels >= 3;
     GrayImage image(file.width, file.height);
-    const auto fill = [&](const auto* at, float white) {
+    const auto fill = [&](const auto* at, float full) {
         for (float& pixel : image.pixels()) {
-            pixel =
-                colored ? (0.299f * at[0] + 0.587f * at[1] + 0.114f * at[2]) / white : float(at[0]) / white;
+            pixel = colored ? (0.299f * at[0] + 0.587f * at[1] + 0.114f * at[2]) / full : float(at[0]) / full;
             at += colored ? 3 : 1;
         }
     };

@@ -21,7 +21,8 @@ namespace ism::detail {
     for (const TensorType type : {TensorType::f64, TensorType::i64, TensorType::f32, TensorType::i32,
                                   TensorType::u32, TensorType::u16, TensorType::u8})
         if (name == type_name(type)) return type;
-    refuse_json(place, "dtype", "one of F64, I64, F32, I32, U32, U16, U8", "'" + name.substr(0, 40) + "'");
+    refuse_json(place, "dtype", "one of F64, I64, F32, I32, U32, U16, U8",
+                join_text("'", name.substr(0, 40), "'"));
 }
 
 /// @brief A tensor without its data, and where in the data it lies.
