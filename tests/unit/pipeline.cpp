@@ -168,6 +168,9 @@ TEST_CASE("wrong frames are refused by name") {
     refuses({.gray = good.gray, .depth_m = good.depth_m, .camera = ism::Camera{0, 1, 0, 0}},
             "camera focal lengths");
     CHECK_THROWS_WITH(ism::detect<ism::Jism>(model, good, {.keep = 1.5}), Catch::Contains("T_ratio"));
+    const ism::Model<ism::HessianLaplace, ism::RootSift> untrained;
+    CHECK_THROWS_WITH(ism::detect<ism::Jism>(untrained, good),
+                      Catch::Contains("training objects of the model"));
 }
 
 TEST_CASE("wrong training images are refused by name") {

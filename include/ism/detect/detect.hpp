@@ -155,6 +155,7 @@ template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl>
     check(options.bandwidth);
     expect(options.min_size_px >= 0 && options.max_size_px >= 0, "detection: least and largest object size",
            "0 px or more", join_text(options.min_size_px, ", ", options.max_size_px));
+    expect(!shapes.objects.empty(), "detection: training objects of the model", "1 or more", 0);
     const auto [smallest, largest] = std::minmax_element(
         shapes.objects.begin(), shapes.objects.end(),
         [](const TrainingObject& a, const TrainingObject& b) { return a.size_px < b.size_px; });

@@ -15,7 +15,6 @@
 #include "ism/core/random.hpp"
 #include "ism/detect/harvest.hpp"
 #include "ism/detect/model.hpp"
-#include "ism/vote/merge_occurrences.hpp"
 
 namespace ism {
 
@@ -31,7 +30,6 @@ struct TrainOptions {
     std::size_t min_cluster_size = 2;  ///< smaller clusters make no word (T_Q + 1)
     double min_information_gain = 0;   ///< words that tell less about the class are dropped (T_IG)
     CodebookKind codebook = CodebookKind::joint;
-    MergeOptions merge = {};           ///< which occurrences become one
     std::size_t max_features = 40000;  ///< see HarvestOptions
     std::size_t max_cluster_features =
         30000;               ///< of more features a random part is clustered; all are matched
@@ -159,7 +157,6 @@ template <Detector D, Descriptor Desc>
     for (std::size_t w = 0; w < model.codebook.size(); ++w)
         model.shapes.first[w + 1] += model.shapes.first[w];
     detail::weigh_occurrences(model.shapes);
-    model.shapes = merge_occurrences(std::move(model.shapes), options.merge);
     return model;
 }
 
