@@ -55,6 +55,9 @@ ism::Model<D, Desc> random_model(std::size_t words = 5, std::size_t each = 4, in
                                                 i % 3, 17 * i});
     }
     model.shapes.first.push_back(std::uint32_t(model.shapes.occurrences.size()));
+    for (std::size_t i = 0; i < 2 * ism::Appearance::cells * words; ++i)
+        model.shapes.appearance.weights.push_back(number());
+    model.shapes.appearance.bias = {number(), number()};
     return model;
 }
 
@@ -74,6 +77,8 @@ void check_equal(const M& a, const M& b) {
     CHECK(a.codebook.max_sq_distance == b.codebook.max_sq_distance);
     CHECK(a.shapes.class_names == b.shapes.class_names);
     CHECK(a.shapes.first == b.shapes.first);
+    CHECK(same_bytes(a.shapes.appearance.weights, b.shapes.appearance.weights));
+    CHECK(same_bytes(a.shapes.appearance.bias, b.shapes.appearance.bias));
     CHECK(same_bytes(a.shapes.occurrences, b.shapes.occurrences));
     REQUIRE(a.shapes.objects.size() == b.shapes.objects.size());
     for (std::size_t i = 0; i < a.shapes.objects.size(); ++i) {
@@ -162,7 +167,7 @@ TEST_CASE("A model file tells what is in it") {
     CHECK(info.upsampling == 1.75);
     CHECK(info.max_sq_distance == 0.1);
     CHECK(info.reference_size_px == ism::reference_size_px);
-    CHECK(info.format_version == 1);
+    CHECK(info.format_version == 2);
     CHECK(info.parameters.find("\"alpha\"") != std::string::npos);
 }
 
@@ -236,7 +241,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": max_sq_distance: expected 0 or more", [](File& f) { f.metadata["max_sq_distance"] = "-1"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 1, got 2", [](File& f) { f.metadata["format_version"] = "2"; }},
+        {": format version: expected 2, got 1", [](File& f) { f.metadata["format_version"] = "1"; }},
         {": expected metadata 'parameters'", [](File& f) { f.metadata.erase("parameters"); }},
         {", parameters: extraction", [](File& f) { f.metadata["parameters"] = "{}"; }},
         {": expected a tensor 'mask_runs'", [](File& f) { f.tensors.erase("mask_runs"); }},

@@ -31,8 +31,8 @@ struct DetectOptions {
     std::size_t max_hypotheses = 40;  ///< so many of the strongest are cut out and verified
     double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
     double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object
-    MatchMode matching = MatchMode::all;
-    float min_vote_weight = 0.0005f;  ///< lighter votes are dropped
+    MatchMode matching = MatchMode::nearest;  ///< soft matching is needed in training alone
+    float min_vote_weight = 0.0005f;          ///< lighter votes are dropped
     MeanShiftOptions mean_shift = {};
     SegmentOptions segmentation = {};
     unsigned threads = 0;  ///< 0 = all the machine has
@@ -144,12 +144,12 @@ template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
     return hypotheses;
 }
 
-/// @brief Detects objects from features already matched: votes, mean shift, segmentation, verification.
-template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl>
-[[nodiscard]] Detections detect_from_matches(std::vector<Feature> features, std::span<const Match> matches,
-                                             const Shapes& shapes, const Frame& frame,
-                                             const DetectOptions<Space>& options = {},
-                                             const V& verifier = {}) {
+/// @brief Casts the votes of matched features and finds where they agree: see find_hypotheses().
+/// @throws Error for an option out of range or shapes without objects.
+template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
+[[nodiscard]] std::vector<Detection> vote_for(std::span<const Feature> features,
+                                              std::span<const Match> matches, const Shapes& shapes,
+                                              const Frame& frame, const DetectOptions<Space>& options = {}) {
     expect(options.keep >= 0 && options.keep <= 1, "detection: part of the strongest score to keep (T_ratio)",
            "0 ... 1", options.keep);
     check(options.bandwidth);
@@ -167,7 +167,25 @@ template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl>
                                           .min_scale = min_size_px / reference_size_px,
                                           .max_scale = max_size_px / reference_size_px,
                                           .min_weight = options.min_vote_weight});
-    auto hypotheses = find_hypotheses<Space, K>(votes, features, shapes, frame, options);
+    return find_hypotheses<Space, K>(votes, features, shapes, frame, options);
+}
+
+/// @brief Detects objects from features already matched: votes, mean shift, the judge of boxes,
+/// segmentation, verification.
+template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl>
+[[nodiscard]] Detections detect_from_matches(std::vector<Feature> features, std::span<const Match> matches,
+                                             const Shapes& shapes, const Frame& frame,
+                                             const DetectOptions<Space>& options = {},
+                                             const V& verifier = {}) {
+    auto hypotheses = vote_for<Space, K>(features, matches, shapes, frame, options);
+    if (!shapes.appearance.empty()) {
+        for (Detection& hypothesis : hypotheses)
+            hypothesis.score *= shapes.appearance.probability(
+                hypothesis.class_index,
+                word_histogram(features, matches, shapes.first.size() - 1, hypothesis.box));
+        std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                         [](const Detection& a, const Detection& b) { return a.score > b.score; });
+    }
     parallel_for(hypotheses.size(), options.threads, [&](std::size_t i) {
         hypotheses[i].segmentation = segment(features, shapes, hypotheses[i].support, hypotheses[i].box,
                                              frame.gray.width(), frame.gray.height(), options.segmentation);

@@ -40,7 +40,8 @@ struct Harvest {
     Extractor<D, Desc> extractor;  ///< as used, with the upsampling chosen from the data
     std::vector<std::string> class_names;
     std::vector<TrainingObject> objects;
-    std::vector<Occurrence> seen;  ///< one for each feature: where on which object it was
+    std::vector<std::uint32_t> first_object;  ///< image i has first_object[i] … first_object[i + 1] − 1
+    std::vector<Occurrence> seen;             ///< one for each feature: where on which object it was
     Descriptors<typename Desc::Scalar, Desc::dimension>
         descriptors;  ///< row i describes the feature of seen[i]
 };
@@ -230,6 +231,7 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
     Harvest<D, Desc> all{.extractor = extractor,
                          .class_names = {class_names.begin(), class_names.end()},
                          .objects = {},
+                         .first_object = {0},
                          .seen = {},
                          .descriptors = {}};
     all.extractor.options.upsampling *= detail::choose_upsampling(sizes_px);
@@ -252,6 +254,7 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
             all.descriptors.push_back(part.descriptors.row(i));
         }
         std::move(part.objects.begin(), part.objects.end(), std::back_inserter(all.objects));
+        all.first_object.push_back(static_cast<std::uint32_t>(all.objects.size()));
         part = {};
     }
     for (std::size_t c = 0; c < class_names.size(); ++c)

@@ -14,6 +14,7 @@
 #include "ism/codebook/information_gain.hpp"
 #include "ism/core/random.hpp"
 #include "ism/detect/harvest.hpp"
+#include "ism/detect/learn_appearance.hpp"
 #include "ism/detect/model.hpp"
 
 namespace ism {
@@ -34,6 +35,7 @@ struct TrainOptions {
     std::size_t max_cluster_features =
         30000;               ///< of more features a random part is clustered; all are matched
     std::uint64_t seed = 1;  ///< chooses that part
+    bool appearance = true;  ///< also learn what boxes of each class hold, to judge hypotheses
     unsigned threads = 0;    ///< 0 = all the machine has
     Progress progress = {};
 };
@@ -144,8 +146,11 @@ template <Detector D, Descriptor Desc>
     }
     std::erase_if(matches, [&](const Match& m) { return gain[m.word] < options.min_information_gain; });
 
-    model.shapes = {
-        .class_names = harvest.class_names, .objects = harvest.objects, .occurrences = {}, .first = {}};
+    model.shapes = {.class_names = harvest.class_names,
+                    .objects = harvest.objects,
+                    .occurrences = {},
+                    .first = {},
+                    .appearance = {}};
     std::stable_sort(matches.begin(), matches.end(),
                      [](const Match& a, const Match& b) { return a.word < b.word; });
     model.shapes.first.assign(model.codebook.size() + 1, 0);
@@ -170,7 +175,14 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
                                    const Extractor<D, Desc>& extractor = {}) {
     const HarvestOptions harvesting{
         .max_features = options.max_features, .threads = options.threads, .progress = options.progress};
-    return learn(harvest(class_names, count, source, extractor, harvesting), options);
+    auto harvested = harvest(class_names, count, source, extractor, harvesting);
+    auto model = learn(harvested, options);
+    const std::vector<std::uint32_t> first_object = std::move(harvested.first_object);
+    harvested = {};  // its descriptors are many
+    if (options.appearance)
+        model.shapes.appearance =
+            learn_appearance(model, first_object, source, {}, options.threads, options.progress);
+    return model;
 }
 
 /// @brief Learns a model from images in memory.

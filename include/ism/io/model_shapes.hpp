@@ -52,7 +52,7 @@ inline void pack_mask(const Mask& mask, std::vector<std::uint8_t>& runs) {
 
 inline void shapes_to_tensors(const Shapes& shapes, TensorFile& file) {
     // A member that is added to Shapes does not compile here until it is kept too.
-    [[maybe_unused]] const auto& [names, all_objects, all_occurrences, first] = shapes;
+    [[maybe_unused]] const auto& [names, all_objects, all_occurrences, first, appearance] = shapes;
     const std::size_t count = shapes.occurrences.size(), objects = shapes.objects.size();
     std::vector<float> numbers, sizes;
     std::vector<std::uint32_t> indices, classes, sides;
@@ -77,6 +77,9 @@ inline void shapes_to_tensors(const Shapes& shapes, TensorFile& file) {
     file.tensors["object_sizes"] = make_tensor<float>(sizes, {objects, 3});
     file.tensors["object_classes"] = make_tensor<std::uint32_t>(classes, {objects});
     file.tensors["mask_sizes"] = make_tensor<std::uint32_t>(sides, {objects, 2});
+    file.tensors["appearance_weights"] =
+        make_tensor<float>(appearance.weights, {appearance.bias.size(), appearance.bins()});
+    file.tensors["appearance_bias"] = make_tensor<float>(appearance.bias, {appearance.bias.size()});
     file.tensors["mask_runs"] = make_tensor<std::uint8_t>(runs, {runs.size() / 2, 2});
 }
 
@@ -168,6 +171,18 @@ inline void check_occurrence(const Occurrence& o, const Shapes& shapes, const st
         check_occurrence(occurrence, shapes, join_text(file.source, ", occurrence ", i));
         shapes.occurrences.push_back(occurrence);
     }
+
+    const auto bias = values<float>(file, "appearance_bias", {any_length});
+    expect<FileError>(bias.empty() || bias.size() == shapes.class_names.size(),
+                      file.source + ": appearance_bias",
+                      join_text("0 or ", shapes.class_names.size(), " numbers"), bias.size());
+    const auto weights = values<float>(file, "appearance_weights",
+                                       {bias.size(), bias.empty() ? 0 : Appearance::cells * words});
+    for (const auto& numbers_of : {bias, weights})
+        for (const float number : numbers_of)
+            expect<FileError>(std::isfinite(number), file.source + ": appearance", "finite numbers", number);
+    shapes.appearance.weights.assign(weights.begin(), weights.end());
+    shapes.appearance.bias.assign(bias.begin(), bias.end());
     return shapes;
 }
 

@@ -10,6 +10,7 @@
 
 #include "ism/core/image.hpp"
 #include "ism/feature/feature.hpp"
+#include "ism/vote/appearance.hpp"
 
 namespace ism {
 
@@ -43,12 +44,14 @@ struct TrainingObject {
     std::string image;            ///< name of the training image, to tell why something was found
 };
 
-/// @brief The shape part of a model: on which objects, and where on them, each word occurs.
+/// @brief The part of a model that knows classes: on which objects, and where on them, each word occurs, and
+/// what boxes of a class hold.
 struct Shapes {
     std::vector<std::string> class_names;
     std::vector<TrainingObject> objects;
     std::vector<Occurrence> occurrences;  ///< those of one word after those of another
     std::vector<std::uint32_t> first;     ///< word w has occurrences first[w] … first[w + 1] − 1
+    Appearance appearance;                ///< judges hypotheses; may be empty
 
     [[nodiscard]] std::span<const Occurrence> of_word(std::size_t word) const {
         return std::span(occurrences).subspan(first[word], first[word + 1] - first[word]);

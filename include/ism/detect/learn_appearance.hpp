@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ism/core/parallel.hpp"
+#include "ism/detect/detect.hpp"
+#include "ism/detect/harvest.hpp"
+#include "ism/detect/model.hpp"
+#include "ism/vote/appearance.hpp"
+
+namespace ism {
+
+/// @brief A box to learn from: what it holds, what it really shows, what it was taken for.
+struct AppearanceSample {
+    static constexpr std::uint32_t background = std::numeric_limits<std::uint32_t>::max();
+    std::vector<HistogramBin> box;
+    std::uint32_t shows = background;  ///< class of the object there
+    std::uint32_t taken_for = 0;       ///< class of the hypothesis; of a labelled box as `shows`
+};
+
+/// @brief How judges are fitted.
+struct AppearanceOptions {
+    double regularisation = 3e-4;    ///< of the squared weights
+    int iterations = 200;            ///< steps of gradient descent
+    std::size_t max_samples = 5000;  ///< hypotheses of all images together, at least 3 an image
+    double same_iou = 0.5;           ///< a hypothesis that overlaps an object so far shows it
+    double other_iou = 0.3;          ///< one that overlaps all less is background; between is left out
+};
+
+/// @brief Fits the judge of each class by logistic regression (AdaGrad, Duchi et al. 2011): boxes that show
+/// the class against those that show another or were taken for it. Both sides weigh alike.
+/// @param words  of the codebook
+[[nodiscard]] inline Appearance fit_appearance(std::span<const AppearanceSample> samples, std::size_t words,
+                                               std::size_t classes, const AppearanceOptions& options = {},
+                                               unsigned threads = 0) {
+    const std::size_t bins = Appearance::cells * words;
+    Appearance result{.weights = std::vector<float>(classes * bins), .bias = std::vector<float>(classes)};
+    parallel_for(classes, threads, [&](std::size_t c) {
+        std::vector<std::pair<const AppearanceSample*, bool>> used;
+        std::size_t right = 0;
+        for (const AppearanceSample& s : samples) {
+            const bool shows = s.shows == c;
+            if (!shows && s.shows == AppearanceSample::background && s.taken_for != c) continue;
+            used.emplace_back(&s, shows);
+            right += shows;
+        }
+        const double weight_right = 0.5 / double(std::max<std::size_t>(1, right));
+        const double weight_wrong = 0.5 / double(std::max<std::size_t>(1, used.size() - right));
+        constexpr double rate = 0.3;
+        std::vector<double> weight(bins + 1, 0), slope(bins + 1), sq_slopes(bins + 1, 1e-8);  // bias last
+        for (int step = 0; step < options.iterations; ++step) {
+            for (std::size_t b = 0; b < bins; ++b) slope[b] = options.regularisation * weight[b];
+            slope[bins] = 0;
+            for (const auto& [sample, shows] : used) {
+                double sum = weight[bins];
+                for (const HistogramBin& b : sample->box) sum += double(b.value) * weight[b.bin];
+                const double error =
+                    (1 / (1 + std::exp(-sum)) - double(shows)) * (shows ? weight_right : weight_wrong);
+                for (const HistogramBin& b : sample->box) slope[b.bin] += error * double(b.value);
+                slope[bins] += error;
+            }
+            for (std::size_t b = 0; b <= bins; ++b) {
+                sq_slopes[b] += slope[b] * slope[b];
+                weight[b] -= rate * slope[b] / std::sqrt(sq_slopes[b]);
+            }
+        }
+        std::copy_n(weight.begin(), bins, result.weights.begin() + std::ptrdiff_t(c * bins));
+        result.bias[c] = static_cast<float>(weight[bins]);
+    });
+    return result;
+}
+
+namespace detail {
+
+/// Shapes as if the objects first … end − 1 had not been seen: what they said of a word others say.
+[[nodiscard]] inline Shapes without_objects(Shapes shapes, std::size_t first, std::size_t end) {
+    for (std::size_t w = 0; w + 1 < shapes.first.size(); ++w) {
+        const auto own =
+            std::span(shapes.occurrences).subspan(shapes.first[w], shapes.first[w + 1] - shapes.first[w]);
+        double all = 0, rest = 0;
+        for (Occurrence& o : own) {
+            all += o.weight;
+            if (o.object >= first && o.object < end) o.weight = 0;
+            rest += o.weight;
+        }
+        if (rest > 0 && rest < all)
+            for (Occurrence& o : own) o.weight = static_cast<float>(o.weight * all / rest);
+    }
+    return shapes;
+}
+
+}  // namespace detail
+
+/// @brief Learns what boxes of each class hold: from the labelled boxes, and from what the model finds in
+/// each training image when it has not seen its objects (leave one image out), background images included.
+/// @param first_object  image i has the objects first_object[i] … first_object[i + 1] − 1 of the model
+/// @param source        gives the images that the model was learnt from
+template <Detector D, Descriptor Desc, TrainingSource Source>
+[[nodiscard]] Appearance learn_appearance(const Model<D, Desc>& model,
+                                          std::span<const std::uint32_t> first_object, const Source& source,
+                                          const AppearanceOptions& options = {}, unsigned threads = 0,
+                                          const Progress& progress = {}) {
+    using Space = VoteSpace<X, Y, Scale, Class>;
+    const std::size_t images = first_object.size() - 1, words = model.codebook.size();
+    DetectOptions<Space> search{.max_hypotheses = std::max<std::size_t>(3, options.max_samples / images),
+                                .threads = 1};
+    std::mutex mutex;
+    std::size_t done = 0;
+    std::vector<std::vector<AppearanceSample>> parts(images);
+    parallel_for(images, threads, [&](std::size_t i) {
+        const TrainingImage image = source(i);
+        const auto found = extract(image.frame.gray, model.extractor, 1);
+        const auto matches = match(model.codebook, found.descriptors, search.matching, 1);
+        const auto holds = [&](const Box& box) {
+            return word_histogram(found.features, matches, words, box);
+        };
+        for (const LabelledObject& object : image.objects) {
+            const auto shows = static_cast<std::uint32_t>(object.class_index);
+            parts[i].push_back({.box = holds(object.box), .shows = shows, .taken_for = shows});
+        }
+        Shapes unseen = detail::without_objects(model.shapes, first_object[i], first_object[i + 1]);
+        for (const Detection& guess : vote_for<Space>(found.features, matches, unseen, image.frame, search)) {
+            double overlap = 0;
+            std::uint32_t shows = AppearanceSample::background;
+            for (const LabelledObject& object : image.objects)
+                if (const double shared = iou(guess.box, object.box); shared > overlap) {
+                    overlap = shared;
+                    shows = static_cast<std::uint32_t>(object.class_index);
+                }
+            if (overlap >= options.other_iou && overlap < options.same_iou) continue;
+            parts[i].push_back({.box = holds(guess.box),
+                                .shows = overlap >= options.same_iou ? shows : AppearanceSample::background,
+                                .taken_for = static_cast<std::uint32_t>(guess.class_index)});
+        }
+        if (progress) {
+            const std::lock_guard lock(mutex);
+            progress("trying on training images", ++done, images);
+        }
+    });
+    std::vector<AppearanceSample> samples;
+    for (auto& part : parts) std::move(part.begin(), part.end(), std::back_inserter(samples));
+    return fit_appearance(samples, words, model.shapes.class_names.size(), options, threads);
+}
+
+}  // namespace ism

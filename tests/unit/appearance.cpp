@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <vector>
+
+#include "support/catch.hpp"
+
+#include "ism/core/random.hpp"
+#include "ism/detect/learn_appearance.hpp"
+
+namespace {
+
+using ism::AppearanceSample;
+using Approx = Catch::Detail::Approx;
+
+ism::Feature feature_at(float x, float y) {
+    ism::Feature f;
+    f.x = x, f.y = y;
+    return f;
+}
+
+}  // namespace
+
+TEST_CASE("a word histogram is the roots of shares, whole and by quarters") {
+    // Three features in the box: left top twice word 1, right bottom word 0; one outside.
+    const std::vector<ism::Feature> features{feature_at(12, 21), feature_at(14, 22), feature_at(19, 38),
+                                             feature_at(20, 25)};
+    const std::vector<ism::Match> matches{
+        {0, 1, 1.0f}, {1, 0, 0.5f}, {1, 1, 0.5f}, {2, 0, 1.0f}, {3, 0, 1.0f}};
+    const auto bins = ism::word_histogram(features, matches, 2, {10, 20, 10, 20});
+    // Weights: whole: word 0 1.5, word 1 1.5; quarter 1: 0.5 and 1.5; quarter 4: 1. Their sum is 6.
+    const std::vector<std::pair<std::uint32_t, double>> expected{
+        {0, 1.5}, {1, 1.5}, {2, 0.5}, {3, 1.5}, {8, 1.0}};
+    REQUIRE(bins.size() == expected.size());
+    double squares = 0;
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+        CHECK(bins[i].bin == expected[i].first);
+        CHECK(bins[i].value == Approx(std::sqrt(expected[i].second / 6)));
+        squares += double(bins[i].value) * bins[i].value;
+    }
+    CHECK(squares == Approx(1));
+    CHECK(ism::word_histogram(features, matches, 2, {100, 100, 10, 10}).empty());
+}
+
+TEST_CASE("a judge's probability is the logistic function of its sum") {
+    const ism::Appearance judge{.weights = {0, 0, 0, 0, 0, 1, 2, 3, 4, 5}, .bias = {0, -1}};
+    const std::vector<ism::HistogramBin> box{{1, 0.5f}, {4, 0.25f}};
+    CHECK(judge.bins() == 5);
+    CHECK(judge.probability(0, box) == Approx(0.5));
+    CHECK(judge.probability(1, box) == Approx(1 / (1 + std::exp(-(-1 + 0.5 * 2 + 0.25 * 5)))));
+    CHECK(ism::Appearance{}.probability(7, box) == 1);
+}
+
+TEST_CASE("fitted judges sit where the loss has no slope, and tell classes and background apart") {
+    // Class 0 has word 0, class 1 has word 1, background word 2, each among noise.
+    ism::Random random(3);
+    constexpr std::size_t words = 3;
+    std::vector<AppearanceSample> samples;
+    for (std::size_t i = 0; i < 60; ++i) {
+        const auto kind = static_cast<std::uint32_t>(i % 3);
+        AppearanceSample sample{.box = {}, .shows = kind, .taken_for = kind};
+        if (kind == 2) sample.shows = AppearanceSample::background, sample.taken_for = i / 3 % 2;
+        for (std::uint32_t word = 0; word < words; ++word)
+            sample.box.push_back({word, float(random.uniform(0, 0.3) + (word == kind ? 0.6 : 0))});
+        samples.push_back(sample);
+    }
+    const ism::AppearanceOptions options{.regularisation = 1e-2, .iterations = 3000};
+    const auto judge = ism::fit_appearance(samples, words, 2, options, 1);
+    REQUIRE(judge.bins() == ism::Appearance::cells * words);
+    for (std::size_t c = 0; c < 2; ++c) {
+        double right = 0, wrong = 0;
+        std::vector<double> slope(words + 1, 0);
+        const auto used = [&](const AppearanceSample& s) {
+            return s.shows != AppearanceSample::background || s.taken_for == c;
+        };
+        for (const auto& s : samples)
+            if (used(s)) (s.shows == c ? right : wrong) += 1;
+        for (const auto& s : samples) {
+            const double p = judge.probability(c, s.box);
+            CHECK((p > 0.5) == (s.shows == c));
+            if (!used(s)) continue;
+            const double error = s.shows == c ? (p - 1) * 0.5 / right : p * 0.5 / wrong;
+            for (std::uint32_t w = 0; w < words; ++w) slope[w] += error * double(s.box[w].value);
+            slope[words] += error;
+        }
+        for (std::size_t w = 0; w < words; ++w)
+            CHECK(std::abs(slope[w] + options.regularisation * double(judge.weights[c * judge.bins() + w])) <
+                  1e-4);
+        CHECK(std::abs(slope[words]) < 1e-4);
+    }
+    const auto two_threads = ism::fit_appearance(samples, words, 2, options, 2);
+    CHECK(two_threads.weights == judge.weights);
+    CHECK(two_threads.bias == judge.bias);
+}
+
+TEST_CASE("shapes without objects: the others of a word say what these said") {
+    ism::Shapes shapes;
+    shapes.class_names = {"only"};
+    shapes.objects.resize(3);
+    for (const auto& [object, weight] : {std::pair(0u, 0.5f), {1u, 0.25f}, {2u, 0.25f}, {0u, 1.0f}}) {
+        ism::Occurrence o;
+        o.object = object, o.weight = weight;
+        shapes.occurrences.push_back(o);
+    }
+    shapes.first = {0, 3, 4};
+    const auto rest = ism::detail::without_objects(shapes, 0, 1);
+    CHECK(rest.occurrences[0].weight == 0);
+    CHECK(rest.occurrences[1].weight == Approx(0.5));
+    CHECK(rest.occurrences[2].weight == Approx(0.5));
+    CHECK(rest.occurrences[3].weight == 0);  // nobody else has seen this word
+    const auto all = ism::detail::without_objects(shapes, 1, 1);
+    CHECK(all.occurrences[0].weight == 0.5f);
+}
