@@ -19,8 +19,9 @@
 int main(int argc, char** argv) try {
     constexpr double region_scales = 3;
     ism::RgbImage picture = toy::read_or_render(argc > 1 ? argv[1] : nullptr);
-    const ism::Extractor<ism::HessianLaplace, ism::RootSift> extractor{};
-    const auto set = ism::extract(ism::to_gray(picture), extractor);
+    // for one picture after another: it keeps threads and memory
+    ism::FeatureExtractor<ism::HessianLaplace, ism::RootSift> extractor({}, 0);
+    const auto& set = extractor.extract(ism::to_gray(picture).view());
 
     for (const ism::Feature& f : set.features)
         ism::draw_circle(picture, {f.x, f.y}, region_scales * f.scale,

@@ -8,6 +8,7 @@
 
 #include "ism/detect/detect.hpp"
 #include "ism/detect/train.hpp"
+#include "ism/feature/byte_sift.hpp"
 #include "ism/feature/dense_grid.hpp"
 #include "ism/feature/difference_of_gaussians.hpp"
 #include "ism/feature/gray_patch.hpp"

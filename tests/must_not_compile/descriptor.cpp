@@ -1,4 +1,4 @@
-// expect: descriptor.describe(space, features, threads)
+// expect: descriptor.describe(space, feature, row)
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <cstddef>

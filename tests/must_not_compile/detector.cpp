@@ -1,4 +1,4 @@
-// expect: detector.detect(space, threads)
+// expect: detector.detect(space, workspace)
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <string_view>

@@ -53,9 +53,10 @@ ism::GrayImage square(int size, double x, double y, double half) {
 
 template <ism::Detector D>
 std::vector<ism::Feature> detect(const ism::GrayImage& image, const D& detector = {}, unsigned threads = 1) {
+    ism::Workspace workspace(threads);
     ism::ScaleSpace space;
-    space.build(image.view(), {}, threads);
-    return detector.detect(space, threads);
+    space.build(image.view(), {}, workspace);
+    return detector.detect(space, workspace);
 }
 
 const ism::Feature* strongest_at(const std::vector<ism::Feature>& features, double x, double y,
@@ -176,24 +177,27 @@ TEMPLATE_TEST_CASE("features move with a shifted and a mirrored image", "", ism:
 }
 
 TEST_CASE("a dense grid is regular and centred") {
+    ism::Workspace workspace;
     ism::ScaleSpace space;
     space.build(ism::GrayImage(101, 61).view());
     const ism::DenseGrid grid{.spacing = 5, .margin = 3, .first_scale = 2, .scale_count = 1};
-    const auto features = grid.detect(space, 1);
+    const auto features = grid.detect(space, workspace);
     // room 100 − 12 = 88 and 60 − 12 = 48 pixels for steps of 10: 9 × 5 points
     REQUIRE(features.size() == 45);
     CHECK(features.front().x == 10);
     CHECK(features.front().y == 10);
     CHECK(features.back().x == 90);
     CHECK(features.back().y == 50);
-    CHECK_THROWS_AS((ism::DenseGrid{.spacing = 0}.detect(space, 1)), ism::Error);
+    CHECK_THROWS_AS((ism::DenseGrid{.spacing = 0}.detect(space, workspace)), ism::Error);
 }
 
 TEST_CASE("detectors refuse options out of range") {
+    ism::Workspace workspace;
     ism::ScaleSpace space;
     space.build(ism::GrayImage(32, 32).view());
-    CHECK_THROWS_AS((ism::DifferenceOfGaussians{.edge_ratio = 0}.detect(space, 1)), ism::Error);
-    CHECK_THROWS_AS((ism::DifferenceOfGaussians{.contrast_threshold = NAN}.detect(space, 1)), ism::Error);
-    CHECK_THROWS_AS((ism::HarrisLaplace{.alpha = 0.5f}.detect(space, 1)), ism::Error);
-    CHECK_THROWS_AS((ism::HessianLaplace{.scale_tolerance = 0}.detect(space, 1)), ism::Error);
+    CHECK_THROWS_AS((ism::DifferenceOfGaussians{.edge_ratio = 0}.detect(space, workspace)), ism::Error);
+    CHECK_THROWS_AS((ism::DifferenceOfGaussians{.contrast_threshold = NAN}.detect(space, workspace)),
+                    ism::Error);
+    CHECK_THROWS_AS((ism::HarrisLaplace{.alpha = 0.5f}.detect(space, workspace)), ism::Error);
+    CHECK_THROWS_AS((ism::HessianLaplace{.scale_tolerance = 0}.detect(space, workspace)), ism::Error);
 }

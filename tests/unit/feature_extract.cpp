@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <set>
 #include <vector>
@@ -9,12 +10,14 @@
 #include "support/catch.hpp"
 
 #include "ism/core/random.hpp"
+#include "ism/feature/byte_sift.hpp"
 #include "ism/feature/dense_grid.hpp"
 #include "ism/feature/depth.hpp"
 #include "ism/feature/difference_of_gaussians.hpp"
 #include "ism/feature/extract.hpp"
 #include "ism/feature/gray_patch.hpp"
 #include "ism/feature/harris_laplace.hpp"
+#include "ism/feature/hessian_laplace.hpp"
 
 namespace {
 
@@ -39,21 +42,104 @@ const ism::Extractor<ism::DifferenceOfGaussians, ism::RootSift> dog;
 
 }  // namespace
 
-TEST_CASE("extract gives each feature a descriptor, whatever the workspace held before") {
+template <ism::Descriptor D>
+void check_same(const ism::FeatureSet<D>& a, const ism::FeatureSet<D>& b) {
+    REQUIRE(a.features.size() == b.features.size());
+    bool same = true;
+    for (std::size_t i = 0; i < a.features.size(); ++i) {
+        ism::Feature f = a.features[i], g = b.features[i];
+        f.depth_m = g.depth_m = 0;
+        same = same && f == g;
+    }
+    CHECK(same);
+    CHECK(std::equal(a.descriptors.values().begin(), a.descriptors.values().end(),
+                     b.descriptors.values().begin(), b.descriptors.values().end()));
+}
+
+using DogRoot = ism::Extractor<ism::DifferenceOfGaussians, ism::RootSift>;
+using HarrisSift = ism::Extractor<ism::HarrisLaplace, ism::Sift>;
+using HessianPatch = ism::Extractor<ism::HessianLaplace, ism::GrayPatch>;
+using DenseBytes = ism::Extractor<ism::DenseGrid, ism::ByteSift>;
+
+TEMPLATE_TEST_CASE("features are the same bits for any threads, and whatever was extracted before", "",
+                   DogRoot, HarrisSift, HessianPatch, DenseBytes) {
+    using Extractor =
+        ism::FeatureExtractor<typename TestType::DetectorType, typename TestType::DescriptorType>;
+    TestType settings;
+    settings.options.oriented = true;
+    settings.options.max_features = 150;
     const auto image = picture(173, 121);
-    const auto own = ism::extract(image.view(), dog);
+    const auto own = ism::extract(image.view(), settings);
     REQUIRE(own.features.size() > 30);
     CHECK(own.descriptors.size() == own.features.size());
-    ism::ScaleSpace workspace;
-    (void)ism::extract(picture(99, 203).view(), dog, workspace);
-    const auto lent = ism::extract(image.view(), dog, workspace, 2);
-    REQUIRE(lent.features.size() == own.features.size());
-    for (std::size_t i = 0; i < own.features.size(); ++i) {
-        CHECK(lent.features[i].x == own.features[i].x);
-        CHECK(lent.features[i].scale == own.features[i].scale);
+    for (const unsigned threads : {1u, 2u, 3u}) {
+        Extractor extractor(settings, threads);
+        (void)extractor.extract(picture(99, 203).view());
+        check_same(own, extractor.extract(image.view()));
+        check_same(own, extractor.extract(image.view()));
     }
-    CHECK(std::equal(own.descriptors.values().begin(), own.descriptors.values().end(),
-                     lent.descriptors.values().begin()));
+}
+
+TEST_CASE("an image of 8 bits gives what its brightness gives") {
+    ism::Image<std::uint8_t> bytes(101, 77);
+    ism::Random random(3);
+    for (auto& value : bytes.pixels()) value = std::uint8_t(random.uniform(0, 256));
+    ism::FeatureExtractor<ism::DifferenceOfGaussians, ism::RootSift> extractor;
+    check_same(extractor.extract(bytes.view()), ism::extract(ism::to_gray(bytes), dog));
+    CHECK_THROWS_AS(extractor.extract(ism::Image<std::uint8_t>(15, 40).view()), ism::Error);
+}
+
+TEST_CASE("a region gives the features of the whole image that lie in it") {
+    const auto image = picture(400, 340);
+    const auto whole = ism::extract(image.view(), dog);
+    ism::FeatureExtractor<ism::DifferenceOfGaussians, ism::RootSift> extractor(dog);
+    for (const ism::Region& region :
+         {ism::Region{101, 77, 150, 120}, {0, 0, 64, 340}, {300, 290, 100, 50}, {0, 0, 400, 340}}) {
+        CAPTURE(region.x, region.y, region.width, region.height);
+        const auto& part = extractor.extract(image.view(), region);
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < whole.features.size(); ++i) {
+            const ism::Feature& f = whole.features[i];
+            if (f.scale > 8 || f.x < float(region.x) || f.y < float(region.y) ||
+                f.x >= float(region.x + region.width) || f.y >= float(region.y + region.height))
+                continue;
+            ++inside;
+            const auto same = std::find_if(part.features.begin(), part.features.end(), [&](const auto& g) {
+                return std::hypot(g.x - f.x, g.y - f.y) < 1e-3f && std::fabs(g.scale / f.scale - 1) < 1e-4f;
+            });
+            REQUIRE(same != part.features.end());
+            const auto row = part.descriptors.row(std::size_t(same - part.features.begin()));
+            float sq_distance = 0;
+            for (std::size_t k = 0; k < row.size(); ++k)
+                sq_distance += std::pow(row[k] - whole.descriptors.row(i)[k], 2.0f);
+            CHECK(sq_distance < 1e-4f);
+        }
+        CHECK(inside >= 5);
+        for (const ism::Feature& f : part.features) {
+            CHECK(f.x >= float(region.x));
+            CHECK(f.y < float(region.y + region.height));
+        }
+    }
+    CHECK_THROWS_AS(extractor.extract(image.view(), ism::Region{390, 0, 20, 20}), ism::Error);
+    CHECK_THROWS_WITH(extractor.extract(image.view(), ism::Region{0, 0, 20, 15}),
+                      "image region size: expected at least 16x16, got 20x15");
+}
+
+TEST_CASE("byte descriptors are SIFT times 512") {
+    const auto image = picture(173, 121);
+    const auto exact = ism::extract(image.view(), ism::Extractor<ism::DifferenceOfGaussians, ism::Sift>{});
+    const auto bytes =
+        ism::extract(image.view(), ism::Extractor<ism::DifferenceOfGaussians, ism::ByteSift>{});
+    const auto root = ism::extract(image.view(), dog);
+    const auto root_bytes =
+        ism::extract(image.view(), ism::Extractor<ism::DifferenceOfGaussians, ism::ByteRootSift>{});
+    REQUIRE(bytes.features.size() == exact.features.size());
+    for (std::size_t i = 0; i < exact.descriptors.values().size(); ++i) {
+        const float value = exact.descriptors.values()[i], rooted = root.descriptors.values()[i];
+        CHECK(std::fabs(float(bytes.descriptors.values()[i]) - std::min(255.0f, 512 * value)) <= 0.501f);
+        CHECK(std::fabs(float(root_bytes.descriptors.values()[i]) - std::min(255.0f, 512 * rooted)) <=
+              0.501f);
+    }
 }
 
 TEST_CASE("upsampling gives positions and scales in pixels of the image given") {

@@ -31,13 +31,13 @@ struct DenseGrid {
     }
 
     /// @throws Error where an option is out of range.
-    [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, unsigned /*threads*/) const {
+    [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, Workspace& workspace) const {
         expect(spacing > 0, "grid spacing (scales)", "a positive number", spacing);
         expect(margin >= 0, "grid margin (scales)", "0 or more", margin);
         expect(first_scale > 0, "first_scale (pixels)", "a positive number", first_scale);
         expect(scale_factor > 1, "scale_factor", "more than 1", scale_factor);
         expect(scale_count >= 1, "scale_count", "1 or more", scale_count);
-        std::vector<Feature> features;
+        std::vector<Feature> features = workspace.empty_list();
         float scale = first_scale;
         for (int i = 0; i < scale_count; ++i, scale *= scale_factor) {
             const Line along_x = line(space.width(), scale), along_y = line(space.height(), scale);

@@ -12,24 +12,22 @@
 
 namespace ism {
 
-/// @brief Describes features by a row of numbers each. To model it, write a small struct with
-/// `using Scalar` (float or std::uint8_t), `static constexpr std::size_t dimension`,
-/// `static constexpr std::string_view name`, `static constexpr float support_radius` (half a side of the
-/// square it looks at, in units of Feature::scale), `static constexpr double sq_length` (the squared length
-/// of a typical descriptor, so that similarity = 1 − squared distance / (2 sq_length)) and
-/// `Descriptors<Scalar, dimension> describe(const ScaleSpace&, std::span<const Feature>, unsigned threads)
-/// const`, one row a feature, whose bits must not depend on `threads`.
+/// @brief Describes a feature by a row of numbers. To model it, write a small struct with `using Scalar`
+/// (float or std::uint8_t), `static constexpr std::size_t dimension`, `static constexpr std::string_view
+/// name`, `static constexpr float support_radius` (half a side of the square it looks at, in units of
+/// Feature::scale), `static constexpr double sq_length` (the squared length of a typical descriptor, so that
+/// similarity = 1 − squared distance / (2 sq_length)) and
+/// `void describe(const ScaleSpace&, const Feature&, std::span<Scalar, dimension> row) const`, which fills
+/// the row and is called from many threads at once.
 template <class D>
 concept Descriptor = std::copyable<D> && DescriptorScalar<typename D::Scalar> &&
-    requires(const D& descriptor, const ScaleSpace& space, std::span<const Feature> features,
-             unsigned threads) {
+    requires(const D& descriptor, const ScaleSpace& space, const Feature& feature,
+             std::span<typename D::Scalar, D::dimension> row) {
     { D::dimension } -> std::convertible_to<std::size_t>;
     { D::name } -> std::convertible_to<std::string_view>;
     { D::support_radius } -> std::convertible_to<float>;
     { D::sq_length } -> std::convertible_to<double>;
-    {
-        descriptor.describe(space, features, threads)
-        } -> std::same_as<Descriptors<typename D::Scalar, D::dimension>>;
+    { descriptor.describe(space, feature, row) } -> std::same_as<void>;
 };
 
 }  // namespace ism

@@ -8,18 +8,30 @@
 
 #include "ism/feature/feature.hpp"
 #include "ism/feature/scale_space.hpp"
+#include "ism/feature/workspace.hpp"
 
 namespace ism {
 
 /// @brief Finds features in a scale space. To model it, write a small struct with its options as members,
 /// `static constexpr std::string_view name` and
-/// `std::vector<Feature> detect(const ScaleSpace&, unsigned threads) const`. Positions and scales are in
-/// pixels of the scale space's input image; the order and every bit must not depend on `threads`.
+/// `std::vector<Feature> detect(const ScaleSpace&, Workspace&) const`. Positions and scales are in pixels of
+/// the scale space's input image; the order and every bit must not depend on the workspace's threads.
 template <class D>
 concept Detector = std::copyable<D> &&
-    requires(const D& detector, const ScaleSpace& space, unsigned threads) {
+    requires(const D& detector, const ScaleSpace& space, Workspace& workspace) {
     { D::name } -> std::convertible_to<std::string_view>;
-    { detector.detect(space, threads) } -> std::same_as<std::vector<Feature>>;
+    { detector.detect(space, workspace) } -> std::same_as<std::vector<Feature>>;
+};
+
+/// @brief A detector that can search rows while the scale space is built: what `search` appends for rows of
+/// an octave depends on the levels up to `search_reach` rows above and below alone. `check` throws where an
+/// option is out of range.
+template <class D>
+concept RowDetector = Detector<D> &&
+    requires(const D& detector, const ScaleSpace& space, Workspace& workspace, std::vector<Feature>& found) {
+    detector.check();
+    { D::search_reach } -> std::convertible_to<int>;
+    { detector.search(space, int(), int(), int(), workspace, unsigned(), found) } -> std::same_as<void>;
 };
 
 }  // namespace ism

@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
-#include "ism/core/parallel.hpp"
 #include "ism/feature/detector.hpp"
 #include "ism/feature/local_maxima.hpp"
 
@@ -36,32 +38,60 @@ struct DifferenceOfGaussians {
     }
 
     /// @throws Error where an option is out of range.
-    [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, unsigned threads) const {
+    void check() const {
         expect(contrast_threshold >= 0, "contrast_threshold", "0 or more", contrast_threshold);
         expect(edge_ratio >= 1, "edge_ratio", "1 or more", edge_ratio);
         expect(border >= 1, "border (pixels)", "1 or more", border);
-        std::vector<Feature> all;
-        for (int octave = 0; octave < space.octaves(); ++octave) {
-            const int rows = space.level(octave, 0).height() - 2 * border;
-            if (rows <= 0) continue;
-            const int tasks = (rows + rows_per_task - 1) / rows_per_task;
-            std::vector<std::vector<Feature>> found(static_cast<std::size_t>(tasks));
-            parallel_for(found.size(), threads, [&](std::size_t task) {
-                const int first = border + int(task) * rows_per_task;
-                search(space, octave, first, std::min(first + rows_per_task, border + rows), found[task]);
-            });
-            std::vector<Feature> features;
-            for (const auto& part : found) features.insert(features.end(), part.begin(), part.end());
-            detail::sort_unique(features);
-            all.insert(all.end(), features.begin(), features.end());
-        }
-        return all;
+    }
+
+    /// @throws Error where an option is out of range.
+    [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, Workspace& workspace) const {
+        check();
+        constexpr int rows_per_task = 32;
+        std::size_t tasks = 0;
+        const auto tasks_of = [&](int octave) {
+            return std::size_t((space.level(octave, 0).height() + rows_per_task - 1) / rows_per_task);
+        };
+        for (int octave = 0; octave < space.octaves(); ++octave) tasks += tasks_of(octave);
+        const auto found = workspace.lists(workspace.team().size());
+        workspace.team().each(tasks, [&](std::size_t task, unsigned worker) {
+            int octave = 0;
+            std::size_t band = task;
+            for (; band >= tasks_of(octave); ++octave) band -= tasks_of(octave);
+            const int first = int(band) * rows_per_task;
+            search(space, octave, first, std::min(first + rows_per_task, space.level(octave, 0).height()),
+                   workspace, worker, found[worker]);
+        });
+        return detail::in_order(found, workspace);
+    }
+
+    /// @brief How many rows above and below the rows searched are looked at.
+    static constexpr int search_reach = 6;
+
+    /// @brief Appends what lies in the rows first … end − 1 of an octave, as detect() does.
+    void search(const ScaleSpace& space, int octave, int first, int end, Workspace& workspace,
+                unsigned worker, std::vector<Feature>& found) const {
+        const ImageView<const float> level = space.level(octave, 0);
+        first = std::max(first, border), end = std::min(end, level.height() - border);
+        if (first >= end || level.width() <= 2 * border) return;
+        const std::size_t size =
+            3 * std::size_t(space.levels() - 1) * std::size_t(whole_lines(level.width()));
+        search_rows(space, octave, first, end, workspace.rows(worker, size), found);
     }
 
 private:
-    static constexpr int rows_per_task = 64;
+    static constexpr int marks_at_once = 64;
 
-    /// The difference d(layer) = level(layer + 1) − level(layer) at one pixel, without storing it.
+    /// The differences d(layer) = level(layer + 1) − level(layer) of three rows, which roll over the octave.
+    struct Window {
+        float* values;
+        std::size_t width;
+        [[nodiscard]] float* row(int layer, int y) const {
+            return values + (std::size_t(layer) * 3 + std::size_t(y % 3)) * width;
+        }
+    };
+
+    /// The same at one pixel, without storing it.
     struct Difference {
         const ScaleSpace& space;
         int octave;
@@ -70,22 +100,15 @@ private:
         }
     };
 
-    /// Three rows of each difference roll over the octave; with the largest and smallest of each pixel and
-    /// its eight neighbours a whole row is searched at once.
-    void search(const ScaleSpace& space, int octave, int first, int end, std::vector<Feature>& found) const {
+    void search_rows(const ScaleSpace& space, int octave, int first, int end, std::span<float> memory,
+                     std::vector<Feature>& found) const {
         const int layers = space.levels() - 1, width = space.level(octave, 0).width();
-        const std::size_t w = std::size_t(width);
-        std::vector<float> rows(3 * std::size_t(layers) * w), high(std::size_t(layers) * w), low(high.size());
-        std::vector<float> top(w), bottom(w);
-        std::vector<unsigned char> hit(w);
-        const auto row = [&](int layer, int y) {
-            return rows.data() + (std::size_t(layer) * 3 + std::size_t(y % 3)) * w;
-        };
+        const Window window{memory.data(), std::size_t(whole_lines(width))};
         const auto load = [&](int y) {
             for (int layer = 0; layer < layers; ++layer) {
                 const float* fine = space.level(octave, layer).row(y).data();
                 const float* coarse = space.level(octave, layer + 1).row(y).data();
-                float* __restrict to = row(layer, y);
+                float* __restrict to = window.row(layer, y);
                 for (int x = 0; x < width; ++x) to[x] = coarse[x] - fine[x];
             }
         };
@@ -94,64 +117,62 @@ private:
         load(first - 1), load(first);
         for (int y = first; y < end; ++y) {
             load(y + 1);
-            for (int layer = 0; layer < layers; ++layer)
-                neighbourhood(row(layer, y - 1), row(layer, y), row(layer, y + 1), width, top.data(),
-                              bottom.data(), high.data() + std::size_t(layer) * w,
-                              low.data() + std::size_t(layer) * w);
             for (int layer = 1; layer + 1 < layers; ++layer) {
-                const std::size_t at = std::size_t(layer) * w;
-                flag(row(layer, y), high.data() + at, low.data() + at, w, least, hit.data());
-                for (int x = border; x < width - border; ++x)
-                    if (hit[std::size_t(x)] != 0 && first_extremum(difference, x, y, layer))
-                        if (const auto feature = refine(difference, x, y, layer)) found.push_back(*feature);
+                for (int x = border; x < width - border; x += marks_at_once) {
+                    const int count = std::min(marks_at_once, width - border - x);
+                    std::array<std::int32_t, marks_at_once> marked;
+                    if (!mark(window, layer, x, y, count, least, marked)) continue;
+                    for (int i = 0; i < count; ++i)
+                        if (marked[std::size_t(i)] != 0 && is_extremum(window, x + i, y, layer))
+                            if (const auto feature = refine(difference, x + i, y, layer))
+                                found.push_back(*feature);
+                }
             }
         }
     }
 
-    /// Largest and smallest value of each pixel and its eight neighbours.
-    static void neighbourhood(const float* a, const float* b, const float* c, int width,
-                              float* __restrict top, float* __restrict bottom, float* __restrict high,
-                              float* __restrict low) {
-        for (int x = 0; x < width; ++x) {
-            const float up = a[x] > b[x] ? a[x] : b[x], down = a[x] < b[x] ? a[x] : b[x];
-            top[x] = up > c[x] ? up : c[x];
-            bottom[x] = down < c[x] ? down : c[x];
+    /// Marks the strong pixels, of `count` from (x, y) on, that no neighbour to the left, right, above,
+    /// below, before or after exceeds: few enough to look at one by one. False where there is none.
+    static bool mark(const Window& window, int layer, int x, int y, int count, float least,
+                     std::array<std::int32_t, marks_at_once>& marked) {
+        const float *here = window.row(layer, y) + x, *above = window.row(layer, y - 1) + x,
+                    *below = window.row(layer, y + 1) + x, *finer = window.row(layer - 1, y) + x,
+                    *coarser = window.row(layer + 1, y) + x;
+        std::int32_t any = 0;
+        for (int i = 0; i < count; ++i) {
+            const float v = here[i];
+            const int high = int(v > least) & int(v >= here[i - 1]) & int(v >= here[i + 1]) &
+                             int(v >= above[i]) & int(v >= below[i]) & int(v >= finer[i]) &
+                             int(v >= coarser[i]);
+            const int low = int(v < -least) & int(v <= here[i - 1]) & int(v <= here[i + 1]) &
+                            int(v <= above[i]) & int(v <= below[i]) & int(v <= finer[i]) &
+                            int(v <= coarser[i]);
+            marked[std::size_t(i)] = high | low;
+            any |= high | low;
         }
-        for (int x = 1; x < width - 1; ++x) {
-            const float up = top[x - 1] > top[x] ? top[x - 1] : top[x];
-            const float down = bottom[x - 1] < bottom[x] ? bottom[x - 1] : bottom[x];
-            high[x] = up > top[x + 1] ? up : top[x + 1];
-            low[x] = down < bottom[x + 1] ? down : bottom[x + 1];
-        }
+        return any != 0;
     }
 
-    /// Marks the strong pixels that equal the extremum of their own layer and of both neighbouring ones,
-    /// which lie w before and after.
-    static void flag(const float* value, const float* high, const float* low, std::size_t w, float least,
-                     unsigned char* __restrict hit) {
-        for (std::size_t x = 0; x < w; ++x) {
-            const float* h = high + x;
-            const float* l = low + x;
-            const float v = value[x];
-            const int is_high = int(v > least) & int(v >= h[0]) & int(v >= *(h - w)) & int(v >= h[w]);
-            const int is_low = int(v < -least) & int(v <= l[0]) & int(v <= *(l - w)) & int(v <= l[w]);
-            hit[x] = static_cast<unsigned char>(is_high | is_low);
-        }
-    }
-
-    /// Whether none of the neighbours before it in (layer, y, x) order is equal: one extremum for a flat top.
-    [[nodiscard]] static bool first_extremum(const Difference& d, int x, int y, int layer) {
-        const float value = d(x, y, layer);
-        for (int k = -1; k <= 0; ++k)
-            for (int j = -1; j <= (k < 0 ? 1 : 0); ++j)
-                for (int i = -1; i <= (k == 0 && j == 0 ? -1 : 1); ++i)
-                    if (d(x + i, y + j, layer + k) == value) return false;
+    /// Whether a pixel exceeds all its 26 neighbours; those after it in (layer, y, x) order may be equal, so
+    /// that a flat top gives one extremum.
+    [[nodiscard]] static bool is_extremum(const Window& window, int x, int y, int layer) {
+        const float value = window.row(layer, y)[x], sign = value > 0 ? 1.0f : -1.0f;
+        for (int k = -1; k <= 1; ++k)
+            for (int j = -1; j <= 1; ++j) {
+                const float* row = window.row(layer + k, y + j) + x;
+                for (int i = -1; i <= 1; ++i) {
+                    const bool before = k < 0 || (k == 0 && (j < 0 || (j == 0 && i < 0)));
+                    const float margin = sign * (value - row[i]);
+                    if (before ? !(margin > 0) : !(margin >= 0)) return false;
+                }
+            }
         return true;
     }
 
     /// Moves to the extremum of the quadratic through the neighbours; nothing where it runs away, is weak or
     /// lies on an edge.
     [[nodiscard]] std::optional<Feature> refine(const Difference& d, int x, int y, int layer) const {
+        const int searched_row = y;
         const ImageView<const float> level = d.space.level(d.octave, 0);
         const int layers_an_octave = d.space.levels_per_octave();
         for (int round = 0; round < 5; ++round) {
@@ -193,7 +214,7 @@ private:
             }
             x += move[0], y += move[1], layer += move[2];
             if (x < border || y < border || x >= level.width() - border || y >= level.height() - border ||
-                layer < 1 || layer > layers_an_octave)
+                layer < 1 || layer > layers_an_octave || std::abs(y - searched_row) >= search_reach)
                 return std::nullopt;
         }
         return std::nullopt;

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -15,6 +18,7 @@
 #include "ism/feature/detector.hpp"
 #include "ism/feature/orientation.hpp"
 #include "ism/feature/resize.hpp"
+#include "ism/feature/workspace.hpp"
 
 namespace ism {
 
@@ -43,87 +47,196 @@ struct FeatureSet {
     Descriptors<typename Desc::Scalar, Desc::dimension> descriptors;
 };
 
-/// @brief At most `count` of the features, strong ones and such that they cover the image evenly, in the
-/// order they came in: the image (width × height pixels) is cut into cells which take turns giving their
+/// @brief A part of an image, whole pixels: columns x … x + width − 1, rows y … y + height − 1.
+struct Region {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// @brief Leaves at most `count` of the features, strong ones and such that they cover the image evenly, in
+/// the order they came in: the image (width × height pixels) is cut into cells which take turns giving their
 /// strongest.
-[[nodiscard]] inline std::vector<Feature> strongest_evenly(std::vector<Feature> features, std::size_t count,
-                                                           int width, int height) {
-    if (features.size() <= count) return features;
+inline void keep_strongest_evenly(std::vector<Feature>& features, std::size_t count, int width, int height,
+                                  Workspace& workspace) {
+    if (features.size() <= count) return;
     const double area = std::max(1.0, double(width) * height);
     const double side = std::sqrt(area / std::max(1.0, double(count) / 8));
-    const auto cell = [&](const Feature& f) {
-        return std::pair(std::floor(double(f.y) / side), std::floor(double(f.x) / side));
+    const double columns = std::floor(width / side) + 1;
+    const auto cell = workspace.numbers(0, features.size()), order = workspace.numbers(1, features.size());
+    const auto turn = workspace.numbers(2, features.size());
+    for (std::size_t i = 0; i < features.size(); ++i) {
+        const double column = std::clamp(std::floor(double(features[i].x) / side), 0.0, columns - 1);
+        cell[i] = std::uint32_t(std::max(0.0, std::floor(double(features[i].y) / side)) * columns + column);
+    }
+    std::iota(order.begin(), order.end(), 0u);
+    const auto sort_by = [&](std::span<const std::uint32_t> first) {
+        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::tuple(first[a], -features[a].strength, a) <
+                   std::tuple(first[b], -features[b].strength, b);
+        });
     };
-    std::vector<std::size_t> order(features.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::tuple(cell(features[a]), -features[a].strength, a) <
-               std::tuple(cell(features[b]), -features[b].strength, b);
-    });
-    std::vector<std::size_t> turn(features.size(), 0);
+    sort_by(cell);
+    turn[order[0]] = 0;
     for (std::size_t i = 1; i < order.size(); ++i)
-        if (cell(features[order[i]]) == cell(features[order[i - 1]])) turn[order[i]] = turn[order[i - 1]] + 1;
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::tuple(turn[a], -features[a].strength, a) < std::tuple(turn[b], -features[b].strength, b);
-    });
-    order.resize(count);
-    std::sort(order.begin(), order.end());
-    std::vector<Feature> kept;
-    kept.reserve(count);
-    for (const std::size_t i : order) kept.push_back(features[i]);
-    return kept;
+        turn[order[i]] = cell[order[i]] == cell[order[i - 1]] ? turn[order[i - 1]] + 1 : 0;
+    sort_by(turn);
+    std::sort(order.begin(), order.begin() + std::ptrdiff_t(count));
+    for (std::size_t i = 0; i < count; ++i) features[i] = features[order[i]];
+    features.resize(count);
 }
 
-/// @brief Features of `image` (brightness 0 … 1) and their descriptors; positions and scales are in pixels of
-/// `image` whatever it was resized by. `workspace` lends its memory and holds the scale space afterwards (of
-/// the resized image). The same for any number of threads (0 = all the machine has).
-/// @throws Error where the image, resized or not, is smaller than 16×16, a pixel is not finite or an option
-/// is out of range.
+/// @brief Finds and describes the features of one image after another with the same threads and memory: after
+/// the first of a size nothing is allocated any more. One image at a time.
 template <Detector D, Descriptor Desc>
-[[nodiscard]] FeatureSet<Desc> extract(ImageView<const float> image, const Extractor<D, Desc>& extractor,
-                                       ScaleSpace& workspace, unsigned threads = 1) {
-    const ExtractOptions& options = extractor.options;
-    const double factor = options.upsampling;
-    expect(std::isfinite(factor) && factor > 0, "upsampling", "a positive number", factor);
-    expect(image.width() >= 16 && image.height() >= 16, "image size", "at least 16x16", size_text(image));
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x)
-            if (!std::isfinite(image(x, y)))
-                throw Error(join_text("image brightness at (", x, ", ", y, "): expected a finite value, got ",
-                                      image(x, y)));
+class FeatureExtractor {
+public:
+    /// @param threads  of the team that works on an image (0 = all the machine has)
+    explicit FeatureExtractor(Extractor<D, Desc> extractor = {}, unsigned threads = 1)
+        : extractor_(std::move(extractor)), workspace_(threads) {}
 
-    ScaleSpaceOptions scale_space = options.scale_space;
-    if (factor == 1) {
-        workspace.build(image, scale_space, threads);
-    } else {
-        const GrayImage other = resized(image, factor, scale_space.input_sigma, threads);
+    /// @brief Features of `image` (brightness 0 … 1) and their descriptors, until the next call; positions
+    /// and scales are in pixels of `image` whatever it was resized by. The same for any number of threads.
+    /// With a region only features whose centre lies in it; those of scales up to 8 pixels are the same as
+    /// without.
+    /// @throws Error where the image, resized or not, or the region is smaller than 16×16, a pixel is not
+    /// finite or an option is out of range.
+    const FeatureSet<Desc>& extract(ImageView<const float> image, std::optional<Region> region = {}) {
+        check(image);
+        if (!region) return run(image, 0, 0, {0, 0, image.width(), image.height()});
+        (void)image.region(region->x, region->y, region->width, region->height);
+        expect(region->width >= 16 && region->height >= 16, "image region size", "at least 16x16",
+               join_text(region->width, "x", region->height));
+        // around it what descriptors and blur reach; from such pixels on that the octaves keep their places
+        constexpr int margin = 64, grid = 32;
+        const int x0 = std::max(0, region->x - margin) / grid * grid;
+        const int y0 = std::max(0, region->y - margin) / grid * grid;
+        const int x1 = std::min(image.width(), region->x + region->width + margin);
+        const int y1 = std::min(image.height(), region->y + region->height + margin);
+        return run(image.region(x0, y0, x1 - x0, y1 - y0), x0, y0, *region);
+    }
+
+    /// @brief The same for an image of 8 bits, 0 (black) … 255 (white).
+    const FeatureSet<Desc>& extract(ImageView<const std::uint8_t> image, std::optional<Region> region = {}) {
+        GrayImage gray = workspace_.image(image.width(), image.height());
+        for (int y = 0; y < image.height(); ++y) {
+            const std::uint8_t* from = image.row(y).data();
+            float* to = gray.row(y).data();
+            for (int x = 0; x < image.width(); ++x) to[x] = float(from[x]) / 255.0f;
+        }
+        extract(gray.view(), region);
+        workspace_.reuse(std::move(gray));
+        return set_;
+    }
+
+    /// @brief What the last image gave, to keep.
+    [[nodiscard]] FeatureSet<Desc> take() { return std::move(set_); }
+    /// @brief Scale space of the last image, resized by its upsampling.
+    [[nodiscard]] const ScaleSpace& scale_space() const { return space_; }
+
+private:
+    void check(ImageView<const float> image) const {
+        const double factor = extractor_.options.upsampling;
+        expect(std::isfinite(factor) && factor > 0, "upsampling", "a positive number", factor);
+        expect(image.width() >= 16 && image.height() >= 16, "image size", "at least 16x16", size_text(image));
+        for (int y = 0; y < image.height(); ++y) {
+            int wrong = 0;
+            for (const float value : image.row(y)) wrong |= int(!(std::fabs(value) <= FLT_MAX));
+            if (wrong == 0) continue;
+            for (int x = 0; x < image.width(); ++x)
+                if (!std::isfinite(image(x, y)))
+                    throw Error(join_text("image brightness at (", x, ", ", y,
+                                          "): expected a finite value, got ", image(x, y)));
+        }
+    }
+
+    /// The features of an image in pixels of the scale space.
+    [[nodiscard]] std::vector<Feature> detect(ImageView<const float> image) {
+        const ExtractOptions& options = extractor_.options;
+        if (options.upsampling == 1) return detect(image, options.scale_space);
+        ScaleSpaceOptions scale_space = options.scale_space;
+        GrayImage other = resized(image, options.upsampling, scale_space.input_sigma, workspace_);
         expect(other.width() >= 16 && other.height() >= 16, "image size after upsampling", "at least 16x16",
                size_text(other));
-        scale_space.input_sigma *= float(std::max(1.0, factor));
-        workspace.build(other, scale_space, threads);
+        scale_space.input_sigma *= float(std::max(1.0, options.upsampling));
+        std::vector<Feature> found = detect(other, scale_space);
+        workspace_.reuse(std::move(other));
+        return found;
     }
-    const auto limited = [&](std::vector<Feature> features) {
-        if (options.max_features == 0) return features;
-        return strongest_evenly(std::move(features), options.max_features, workspace.width(),
-                                workspace.height());
-    };
-    FeatureSet<Desc> set;
-    set.features = limited(extractor.detector.detect(workspace, threads));
-    if (options.oriented) set.features = limited(assign_orientations(workspace, set.features, threads));
-    set.descriptors = extractor.descriptor.describe(workspace, set.features, threads);
-    if (factor != 1)
-        for (Feature& f : set.features) {
-            f.x = float(f.x / factor), f.y = float(f.y / factor), f.scale = float(f.scale / factor);
-        }
-    return set;
-}
 
-/// @brief The same with a workspace of its own.
+    [[nodiscard]] std::vector<Feature> detect(ImageView<const float> image,
+                                              const ScaleSpaceOptions& options) {
+        const D& detector = extractor_.detector;
+        if constexpr (RowDetector<D>) {
+            detector.check();
+            const auto found = workspace_.lists(workspace_.team().size());
+            space_.build(image, options, workspace_, D::search_reach,
+                         [&](int octave, int first, int end, unsigned worker) {
+                             detector.search(space_, octave, first, end, workspace_, worker, found[worker]);
+                         });
+            return detail::in_order(found, workspace_);
+        } else {
+            space_.build(image, options, workspace_);
+            return detector.detect(space_, workspace_);
+        }
+    }
+
+    /// `image` is the part of the whole that begins at (x0, y0); kept is what lies in the region of the
+    /// whole.
+    const FeatureSet<Desc>& run(ImageView<const float> image, int x0, int y0, const Region& region) {
+        const ExtractOptions& options = extractor_.options;
+        const float factor = float(options.upsampling);
+        std::vector<Feature>& features = set_.features;
+        const auto replace = [&](std::vector<Feature> other) {
+            std::swap(features, other);
+            workspace_.reuse(std::move(other));
+        };
+        const auto limit = [&] {
+            if (options.max_features > 0)
+                keep_strongest_evenly(features, options.max_features, space_.width(), space_.height(),
+                                      workspace_);
+        };
+        replace(detect(image));
+        const float left = float(region.x - x0) * factor, top = float(region.y - y0) * factor;
+        const float right = left + float(region.width) * factor, bottom = top + float(region.height) * factor;
+        if (image.width() != region.width || image.height() != region.height)
+            std::erase_if(features, [&](const Feature& f) {
+                return f.x < left || f.y < top || f.x >= right || f.y >= bottom;
+            });
+        limit();
+        if (options.oriented) {
+            replace(assign_orientations(space_, features, workspace_));
+            limit();
+        }
+        describe();
+        for (Feature& f : features)
+            f.x = f.x / factor + float(x0), f.y = f.y / factor + float(y0), f.scale = f.scale / factor;
+        return set_;
+    }
+
+    void describe() {
+        constexpr std::size_t features_per_task = 32;
+        const std::size_t count = set_.features.size();
+        set_.descriptors.resize(count);
+        workspace_.team().each(
+            (count + features_per_task - 1) / features_per_task, [&](std::size_t task, unsigned) {
+                const std::size_t first = task * features_per_task;
+                for (std::size_t i = first; i < std::min(count, first + features_per_task); ++i)
+                    extractor_.descriptor.describe(space_, set_.features[i], set_.descriptors.row(i));
+            });
+    }
+
+    Extractor<D, Desc> extractor_;
+    Workspace workspace_;
+    ScaleSpace space_;
+    FeatureSet<Desc> set_;
+};
+
+/// @brief Features of one image: FeatureExtractor::extract() with threads and memory of its own.
 template <Detector D, Descriptor Desc>
 [[nodiscard]] FeatureSet<Desc> extract(ImageView<const float> image, const Extractor<D, Desc>& extractor,
                                        unsigned threads = 1) {
-    ScaleSpace workspace;
-    return extract(image, extractor, workspace, threads);
+    FeatureExtractor<D, Desc> once(extractor, threads);
+    once.extract(image);
+    return once.take();
 }
 
 }  // namespace ism

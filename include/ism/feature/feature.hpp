@@ -49,6 +49,7 @@ public:
         values_.insert(values_.end(), row.begin(), row.end());
     }
     void reserve(std::size_t count) { values_.reserve(count * Dimension); }
+    void resize(std::size_t count) { values_.resize(count * Dimension); }
 
     /// @brief All numbers, row after row.
     [[nodiscard]] std::span<T> values() { return values_; }

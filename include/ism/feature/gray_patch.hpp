@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "ism/feature/descriptor.hpp"
-#include "ism/feature/sift.hpp"
 
 namespace ism {
 
@@ -27,19 +26,8 @@ struct GrayPatch {
     static constexpr float support_radius = 6;
     static constexpr double sq_length = 625.0 * 42 * 42;  ///< around grey 128
 
-    [[nodiscard]] Descriptors<std::uint8_t, dimension> describe(const ScaleSpace& space,
-                                                                std::span<const Feature> features,
-                                                                unsigned threads) const {
-        Descriptors<std::uint8_t, dimension> rows(features.size());
-        detail::for_each_feature(features.size(), threads,
-                                 [&](std::size_t i) { describe_one(space, features[i], rows.row(i)); });
-        return rows;
-    }
-
-private:
     /// A sample stands for a square of the patch: it is taken from the level blurred by about half its side.
-    static void describe_one(const ScaleSpace& space, const Feature& f,
-                             std::span<std::uint8_t, dimension> out) {
+    void describe(const ScaleSpace& space, const Feature& f, std::span<std::uint8_t, dimension> out) const {
         const float spacing = 2 * support_radius * f.scale / side;
         const LevelIndex at = space.nearest_level(0.5f * spacing);
         const ImageView<const float> image = space.level(at.octave, at.level);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -40,16 +42,26 @@ struct HarrisLaplace {
     }
 
     /// @throws Error where an option is out of range.
-    [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, unsigned threads) const {
+    [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, Workspace& workspace) const {
         expect(threshold >= 0, "Harris threshold", "0 or more", threshold);
         expect(alpha >= 0 && alpha < 0.25f, "Harris alpha", "0 to 0.25", alpha);
         expect(scale_tolerance > 0 && scale_tolerance <= 1, "scale_tolerance (octaves)", "above 0, up to 1",
                scale_tolerance);
         expect(border >= 0, "border (pixels)", "0 or more", border);
         const float offset = 0.5f * float(space.levels_per_octave());
-        const auto respond = [&](int octave, int level, int first, int end, ImageView<float> out) {
+        std::array<std::span<const float>, 32> kernels;  // one a level, of the integration scale
+        for (int level = 0; level < space.levels_per_octave(); ++level)
+            kernels[std::size_t(level)] = workspace.kernel(space.level_sigma(float(level) + offset));
+        const auto memory_for = [&](int octave, int level, int rows) {
+            const int radius = int(kernels[std::size_t(level)].size()) - 1;
+            const int width = space.level(octave, 0).width();
+            return 3 * std::size_t(width) * std::size_t(2 * rows + 2 * radius + 1) +
+                   detail::blur_scratch(width, radius);
+        };
+        const auto respond = [&](int octave, int level, int first, int end, ImageView<float> out,
+                                 std::span<float> memory) {
             harris(space.level(octave, level), first, end, space.level_sigma(float(level)),
-                   space.level_sigma(float(level) + offset), out);
+                   kernels[std::size_t(level)], memory, out);
         };
         return detail::scale_selected_maxima(space,
                                              {.first_level = 0,
@@ -58,39 +70,35 @@ struct HarrisLaplace {
                                               .threshold = threshold,
                                               .least_laplacian = least_laplacian,
                                               .border = border},
-                                             threads, respond);
+                                             workspace, memory_for, respond);
     }
 
 private:
     /// The measure for the rows first … end − 1, written into the rows of `out`.
-    void harris(ImageView<const float> image, int first, int end, float sigma_d, float sigma_i,
-                ImageView<float> out) const {
-        const std::vector<float> kernel = gaussian_kernel(sigma_i);
+    void harris(ImageView<const float> image, int first, int end, float sigma_d,
+                std::span<const float> kernel, std::span<float> memory, ImageView<float> out) const {
         const int radius = int(kernel.size()) - 1, width = image.width(), height = image.height();
-        const int top = std::max(0, first - radius), bottom = std::min(height, end + radius);
-        Image<float> xx(width, bottom - top), xy = xx, yy = xx;
+        const int top = std::max(0, first - radius), bottom = std::min(height, end + radius + 1);
+        float* next = memory.data();
+        const auto plane = [&](int rows) {
+            const ImageView<float> view(next, width, rows, width);
+            next += std::ptrdiff_t(width) * rows;
+            return view;
+        };
+        const std::array product = {plane(bottom - top), plane(bottom - top), plane(bottom - top)};
+        const std::array mean = {plane(end - first), plane(end - first), plane(end - first)};
         for (int y = top; y < bottom; ++y)
-            products(image, y, 0.25f * sigma_d * sigma_d, xx.row(y - top).data(), xy.row(y - top).data(),
-                     yy.row(y - top).data());
-
-        const std::size_t w = std::size_t(width);
-        std::vector<float> column(w + 2 * std::size_t(radius)), mean(3 * w);
-        std::vector<const float*> rows(2 * std::size_t(radius) + 1);
-        const detail::BlurRow blur_row =
-            detail::blur_row_of_radius[std::size_t(radius <= detail::unrolled_radius ? radius : 0)];
-        for (int y = first; y < end; ++y) {
-            float* to = mean.data();
-            for (const Image<float>* plane : {&xx, &xy, &yy}) {
-                for (int t = -radius; t <= radius; ++t)
-                    rows[std::size_t(t + radius)] = plane->row(std::clamp(y + t, 0, height - 1) - top).data();
-                blur_row(rows.data(), kernel.data(), radius, width, column.data(), to);
-                to += w;
-            }
-            const float *mxx = mean.data(), *mxy = mxx + w, *myy = mxy + w;
-            float* __restrict response = out.row(y - first).data();
-            for (std::size_t x = 0; x < w; ++x) {
-                const float trace = mxx[x] + myy[x];
-                response[x] = mxx[x] * myy[x] - mxy[x] * mxy[x] - alpha * trace * trace;
+            products(image, y, 0.25f * sigma_d * sigma_d, product[0].row(y - top).data(),
+                     product[1].row(y - top).data(), product[2].row(y - top).data());
+        for (std::size_t i = 0; i < 3; ++i)
+            detail::blur_band([&](int y) { return product[i].row(y - top).data(); }, width, height, kernel,
+                              first, end, next, [&](int y) { return mean[i].row(y - first).data(); });
+        for (int y = 0; y < end - first; ++y) {
+            const float *xx = mean[0].row(y).data(), *xy = mean[1].row(y).data(), *yy = mean[2].row(y).data();
+            float* __restrict response = out.row(y).data();
+            for (int x = 0; x < width; ++x) {
+                const float trace = xx[x] + yy[x];
+                response[x] = xx[x] * yy[x] - xy[x] * xy[x] - alpha * trace * trace;
             }
         }
     }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -33,26 +35,28 @@ struct HessianLaplace {
     }
 
     /// @throws Error where an option is out of range.
-    [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, unsigned threads) const {
+    [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, Workspace& workspace) const {
         expect(threshold >= 0, "Hessian threshold", "0 or more", threshold);
         expect(scale_tolerance > 0 && scale_tolerance <= 1, "scale_tolerance (octaves)", "above 0, up to 1",
                scale_tolerance);
         expect(border >= 0, "border (pixels)", "0 or more", border);
-        const auto respond = [&](int octave, int level, int first, int end, ImageView<float> out) {
+        const auto respond = [&](int octave, int level, int first, int end, ImageView<float> out,
+                                 std::span<float>) {
             const ImageView<const float> image = space.level(octave, level);
             const float sigma = space.level_sigma(float(level)), sigma4 = sigma * sigma * sigma * sigma;
             for (int y = first; y < end; ++y)
                 determinant(image.row(y - 1).data(), image.row(y).data(), image.row(y + 1).data(),
                             image.width(), sigma4, out.row(y - first).data());
         };
-        return detail::scale_selected_maxima(space,
-                                             {.first_level = 1,
-                                              .scale_offset = 0,
-                                              .scale_tolerance = scale_tolerance,
-                                              .threshold = threshold,
-                                              .least_laplacian = least_laplacian,
-                                              .border = border},
-                                             threads, respond);
+        return detail::scale_selected_maxima(
+            space,
+            {.first_level = 1,
+             .scale_offset = 0,
+             .scale_tolerance = scale_tolerance,
+             .threshold = threshold,
+             .least_laplacian = least_laplacian,
+             .border = border},
+            workspace, [](int, int, int) { return std::size_t{0}; }, respond);
     }
 
 private:

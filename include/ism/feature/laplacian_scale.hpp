@@ -9,12 +9,13 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "ism/core/parallel.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/local_maxima.hpp"
 #include "ism/feature/scale_space.hpp"
+#include "ism/feature/workspace.hpp"
 
 namespace ism::detail {
 
@@ -69,51 +70,64 @@ struct ScaleSelection {
     int border = 5;               ///< pixels of the octave without features along the edge
 };
 
-inline constexpr int band_rows = 64;
-
-/// Maxima in the plane of a response whose scale is characteristic. `respond(octave, level, first, end,
-/// out)` writes the response of the rows first … end − 1 of a level into the rows of `out`.
-template <std::invocable<int, int, int, int, ImageView<float>> Respond>
-[[nodiscard]] std::vector<Feature> scale_selected_maxima(const ScaleSpace& space,
-                                                         const ScaleSelection& selection, unsigned threads,
-                                                         const Respond& respond) {
+/// Appends the maxima of a response, whose row 1 is row `first` of the level, that have a scale.
+inline void keep_maxima(const ScaleSpace& space, const ScaleSelection& selection, int octave, int level,
+                        int first, ImageView<const float> response, std::vector<Feature>& found) {
     const float tolerance = selection.scale_tolerance * float(space.levels_per_octave());
-    std::vector<Feature> all;
-    for (int octave = 0; octave < space.octaves(); ++octave) {
+    const float step = space.step(octave);
+    const int border = std::max(2, selection.border);
+    for (int j = 1; j + 1 < response.height(); ++j)
+        for (int x = border; x < response.width() - border; ++x) {
+            if (!(response(x, j) > selection.threshold) || !is_maximum(response, x, j)) continue;
+            const SubPixel top = refine_maximum(response, x, j);
+            const float px = float(x) + top.dx, py = float(first - 1 + j) + top.dy;
+            const auto at = characteristic_level(space, octave, float(level) + selection.scale_offset,
+                                                 tolerance, px, py, selection.least_laplacian);
+            if (!at) continue;
+            found.push_back(
+                {.x = px * step, .y = py * step, .scale = space.sigma(octave, *at), .strength = top.value});
+        }
+}
+
+inline constexpr int band_rows = 32;
+
+/// Maxima in the plane of a response whose scale is characteristic. `respond(octave, level, first, end, out,
+/// memory)` writes the response of the rows first … end − 1 of a level into the rows of `out`;
+/// `memory_for(octave, level, rows)` says how many numbers it works with.
+template <class MemoryFor, class Respond>
+requires std::invocable<MemoryFor, int, int, int> &&
+    std::invocable<Respond, int, int, int, int, ImageView<float>, std::span<float>>
+[[nodiscard]] std::vector<Feature> scale_selected_maxima(const ScaleSpace& space,
+                                                         const ScaleSelection& selection,
+                                                         Workspace& workspace, const MemoryFor& memory_for,
+                                                         const Respond& respond) {
+    const int border = std::max(2, selection.border);
+    const auto bands_of = [&](int octave) {
+        const ImageView<const float> level = space.level(octave, 0);
+        const int rows = level.width() > 2 * border ? level.height() - 2 * border : 0;
+        return std::size_t(std::max(0, (rows + band_rows - 1) / band_rows));
+    };
+    const std::size_t levels = std::size_t(space.levels_per_octave());
+    std::size_t tasks = 0;
+    for (int octave = 0; octave < space.octaves(); ++octave) tasks += levels * bands_of(octave);
+    const auto found = workspace.lists(workspace.team().size());
+    workspace.team().each(tasks, [&](std::size_t task, unsigned worker) {
+        int octave = 0;
+        std::size_t part = task;
+        for (; part >= levels * bands_of(octave); ++octave) part -= levels * bands_of(octave);
+        const int level = selection.first_level + int(part / bands_of(octave));
         const int width = space.level(octave, 0).width(), height = space.level(octave, 0).height();
-        const int border = std::max(2, selection.border);
-        const int rows = height - 2 * border;
-        if (rows <= 0 || width <= 2 * border) continue;
-        const std::size_t bands = std::size_t((rows + band_rows - 1) / band_rows);
-        std::vector<std::vector<Feature>> found(bands * std::size_t(space.levels_per_octave()));
-        parallel_for(found.size(), threads, [&](std::size_t task) {
-            const int level = selection.first_level + int(task / bands);
-            const int first = border + int(task % bands) * band_rows;
-            const int end = std::min(first + band_rows, border + rows);
-            Image<float> values(width, end - first + 2);
-            respond(octave, level, first - 1, end + 1, values.view());
-            const ImageView<const float> response = values.view();
-            for (int j = 1; j <= end - first; ++j)
-                for (int x = border; x < width - border; ++x) {
-                    if (!(response(x, j) > selection.threshold) || !is_maximum(response, x, j)) continue;
-                    const SubPixel top = refine_maximum(response, x, j);
-                    const float px = float(x) + top.dx, py = float(first - 1 + j) + top.dy;
-                    const auto at = characteristic_level(space, octave, float(level) + selection.scale_offset,
-                                                         tolerance, px, py, selection.least_laplacian);
-                    if (!at) continue;
-                    const float step = space.step(octave);
-                    found[task].push_back({.x = px * step,
-                                           .y = py * step,
-                                           .scale = space.sigma(octave, *at),
-                                           .strength = top.value});
-                }
-        });
-        std::vector<Feature> features;
-        for (const auto& part : found) features.insert(features.end(), part.begin(), part.end());
-        sort_unique(features);
-        all.insert(all.end(), features.begin(), features.end());
-    }
-    return without_duplicates(all, 0.5f, std::exp2(0.5f));
+        const int first = border + int(part % bands_of(octave)) * band_rows;
+        const int end = std::min(first + band_rows, height - border), rows = end - first + 2;
+        const std::size_t size = std::size_t(width) * std::size_t(rows);
+        const auto memory = workspace.rows(worker, size + memory_for(octave, level, rows));
+        const ImageView<float> response(memory.data(), width, rows, width);
+        respond(octave, level, first - 1, end + 1, response, memory.subspan(size));
+        keep_maxima(space, selection, octave, level, first, response, found[worker]);
+    });
+    std::vector<Feature> all = in_order(found, workspace);
+    drop_duplicates(all, 0.5f, std::exp2(0.5f), workspace);
+    return all;
 }
 
 }  // namespace ism::detail

@@ -3,14 +3,19 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <vector>
 
 #include "ism/core/image.hpp"
 #include "ism/feature/feature.hpp"
+#include "ism/feature/workspace.hpp"
 
 namespace ism::detail {
 
@@ -49,52 +54,69 @@ struct SubPixel {
     return {dx, dy, value + 0.5f * (gx * dx + gy * dy)};
 }
 
-/// Puts the features of an octave in order (y, x, scale) and drops repetitions.
-inline void sort_unique(std::vector<Feature>& features) {
-    const auto key = [](const Feature& f) { return std::tie(f.y, f.x, f.scale, f.strength); };
-    std::sort(features.begin(), features.end(),
-              [&](const Feature& a, const Feature& b) { return key(a) < key(b); });
-    features.erase(std::unique(features.begin(), features.end(),
-                               [&](const Feature& a, const Feature& b) {
-                                   return a.y == b.y && a.x == b.x && a.scale == b.scale;
-                               }),
-                   features.end());
+/// The features of all lists, from small scales to large, each octave of scales from top to bottom, without
+/// repetitions: the same however they are spread over the lists, which are sorted.
+[[nodiscard]] inline std::vector<Feature> in_order(std::span<std::vector<Feature>> lists,
+                                                   Workspace& workspace) {
+    const auto less = [](const Feature& a, const Feature& b) {
+        const auto octave_a = std::bit_cast<std::uint32_t>(a.scale) >> 23,
+                   octave_b = std::bit_cast<std::uint32_t>(b.scale) >> 23;
+        if (octave_a != octave_b) return octave_a < octave_b;
+        return std::tie(a.y, a.x, a.scale, a.strength) < std::tie(b.y, b.x, b.scale, b.strength);
+    };
+    workspace.team().each(
+        lists.size(), [&](std::size_t i, unsigned) { std::sort(lists[i].begin(), lists[i].end(), less); });
+    std::vector<Feature> all = workspace.empty_list(), other = workspace.empty_list();
+    for (const std::vector<Feature>& list : lists) {
+        other.clear();
+        std::merge(all.begin(), all.end(), list.begin(), list.end(), std::back_inserter(other), less);
+        std::swap(all, other);
+    }
+    workspace.reuse(std::move(other));
+    all.erase(std::unique(all.begin(), all.end(),
+                          [&](const Feature& a, const Feature& b) {
+                              return a.y == b.y && a.x == b.x && a.scale == b.scale;
+                          }),
+              all.end());
+    return all;
 }
 
 /// Drops each feature that lies within `radius` scales of a stronger one which stays and whose scale differs
 /// by less than `ratio`; the others stay in order.
-[[nodiscard]] inline std::vector<Feature> without_duplicates(const std::vector<Feature>& features,
-                                                             float radius, float ratio) {
-    std::vector<std::size_t> by_y(features.size()), place(features.size()), by_strength;
-    std::iota(by_y.begin(), by_y.end(), std::size_t{0});
-    by_strength = by_y;
-    std::sort(by_y.begin(), by_y.end(), [&](std::size_t a, std::size_t b) {
+inline void drop_duplicates(std::vector<Feature>& features, float radius, float ratio, Workspace& workspace) {
+    const std::size_t count = features.size();
+    const auto by_y = workspace.numbers(0, count), place = workspace.numbers(1, count);
+    const auto by_strength = workspace.numbers(2, count), dropped = workspace.numbers(3, count);
+    std::iota(by_y.begin(), by_y.end(), 0u);
+    std::iota(by_strength.begin(), by_strength.end(), 0u);
+    std::fill(dropped.begin(), dropped.end(), 0u);
+    std::sort(by_y.begin(), by_y.end(), [&](std::uint32_t a, std::uint32_t b) {
         return std::tie(features[a].y, a) < std::tie(features[b].y, b);
     });
-    for (std::size_t i = 0; i < by_y.size(); ++i) place[by_y[i]] = i;
-    std::sort(by_strength.begin(), by_strength.end(), [&](std::size_t a, std::size_t b) {
+    for (std::size_t i = 0; i < count; ++i) place[by_y[i]] = std::uint32_t(i);
+    std::sort(by_strength.begin(), by_strength.end(), [&](std::uint32_t a, std::uint32_t b) {
         return std::tie(features[b].strength, a) < std::tie(features[a].strength, b);
     });
-    std::vector<char> dropped(features.size());
-    for (const std::size_t i : by_strength) {
+    for (const std::uint32_t i : by_strength) {
         if (dropped[i] != 0) continue;
         const Feature& strong = features[i];
         const float reach = radius * strong.scale;
-        const auto drop_near = [&](std::size_t j) {
+        const auto drop_near = [&](std::uint32_t j) {
             const Feature& f = features[j];
-            if (std::fabs(f.y - strong.y) > reach) return false;
-            if (std::hypot(f.x - strong.x, f.y - strong.y) <= reach && f.scale < strong.scale * ratio &&
+            const float dx = f.x - strong.x, dy = f.y - strong.y;
+            if (std::fabs(dy) > reach) return false;
+            if (dx * dx + dy * dy <= reach * reach && f.scale < strong.scale * ratio &&
                 strong.scale < f.scale * ratio)
                 dropped[j] = 1;
             return true;
         };
-        for (std::size_t k = place[i] + 1; k < by_y.size() && drop_near(by_y[k]); ++k) continue;
+        for (std::size_t k = place[i] + std::size_t(1); k < count && drop_near(by_y[k]); ++k) continue;
         for (std::size_t k = place[i]; k > 0 && drop_near(by_y[k - 1]); --k) continue;
     }
-    std::vector<Feature> kept;
-    for (std::size_t i = 0; i < features.size(); ++i)
-        if (dropped[i] == 0) kept.push_back(features[i]);
-    return kept;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        if (dropped[i] == 0) features[kept++] = features[i];
+    features.resize(kept);
 }
 
 }  // namespace ism::detail

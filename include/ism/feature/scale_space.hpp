@@ -3,15 +3,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
-#include <memory>
-#include <mutex>
+#include <span>
 #include <vector>
 
+#include "ism/core/aligned.hpp"
 #include "ism/core/image.hpp"
 #include "ism/feature/blur.hpp"
-#include "ism/feature/gradient.hpp"
+#include "ism/feature/row_sweep.hpp"
+#include "ism/feature/workspace.hpp"
 
 namespace ism {
 
@@ -35,27 +38,54 @@ struct LevelIndex {
 /// deviation sigma(o, i) = base_sigma · step(o) · 2^(i/S) in pixels of the input image, where step(o) is the
 /// input pixels a pixel of the octave: 0.5 in a doubled octave, then 1, 2, 4 …
 /// Pixel (x, y) of octave o lies at (x · step(o), y · step(o)) in the input image.
-/// Reading is safe from many threads at once.
 class ScaleSpace {
 public:
     /// @brief Fills the scale space from `image` (brightness, at least 16×16), reusing its memory. The result
-    /// is the same for any number of threads (0 = all the machine has).
+    /// is the same for any workspace.
     /// Where the image is blurrier than the first level should be, it is taken as it is.
     /// @throws Error where the image is smaller or an option out of range.
-    void build(ImageView<const float> image, const ScaleSpaceOptions& options = {}, unsigned threads = 1) {
+    void build(ImageView<const float> image, const ScaleSpaceOptions& options, Workspace& workspace) {
+        build(image, options, workspace, 0, [](int, int, int, unsigned) {});
+    }
+
+    /// @brief The same, and calls `watch(octave, first, end, worker)` for rows of the octave, on many
+    /// threads, as soon as all levels have them and `reach` rows above and below: while they are in the
+    /// cache.
+    template <std::invocable<int, int, int, unsigned> Watch>
+    void build(ImageView<const float> image, const ScaleSpaceOptions& options, Workspace& workspace,
+               int reach, const Watch& watch) {
         check(image, options);
         options_ = options;
         lay_out(image.width(), image.height());
-        fill_base(image, threads);
-        std::vector<std::vector<float>> kernels;
-        for (int i = 1; i < levels(); ++i)
-            kernels.push_back(gaussian_kernel(options.base_sigma *
-                                              std::sqrt(relative_variance(i) - relative_variance(i - 1))));
+        // stages: the doubled image, the levels, the watch
+        const std::size_t stages = std::size_t(levels()) + 2;
+        std::array<std::span<const float>, detail::most_stages> kernels;
+        std::array<int, detail::most_stages> reaches{};
+        for (std::size_t stage = 2; stage + 1 < stages; ++stage)
+            kernels[stage] = workspace.kernel(missing_sigma(int(stage) - 1));
+        if (const double missing = missing_base_sigma(); missing > 0) kernels[1] = workspace.kernel(missing);
         for (int o = 0; o < octaves(); ++o) {
-            if (o > 0) halve(level(o - 1, options.levels_per_octave), plane(o, 0));
-            for (int i = 1; i < levels(); ++i)
-                blur(level(o, i - 1), kernels[std::size_t(i - 1)], plane(o, i), threads);
+            for (std::size_t stage = 1; stage + 1 < stages; ++stage)
+                reaches[stage] = kernels[stage].empty() ? 0 : int(kernels[stage].size()) - 1;
+            reaches[stages - 1] = reach;
+            const auto make = [&](std::size_t stage, int first, int end, unsigned worker) {
+                if (stage + 1 == stages)
+                    watch(o, first, end, worker);
+                else if (stage == 0)
+                    make_doubled(image, o, first, end, worker, workspace);
+                else
+                    make_level(image, o, int(stage) - 1, kernels[stage], first, end, worker, workspace);
+            };
+            detail::sweep_rows(workspace.team(), octaves_[std::size_t(o)].height,
+                               std::span(reaches).first(stages), make);
+            kernels[1] = {};  // the first level of the next octave is there
         }
+    }
+
+    /// @brief The same with threads and memory of its own.
+    void build(ImageView<const float> image, const ScaleSpaceOptions& options = {}, unsigned threads = 1) {
+        Workspace workspace(threads);
+        build(image, options, workspace);
     }
 
     /// @brief Number of octaves; 0 before build().
@@ -85,21 +115,24 @@ public:
         return {o.pixels.data() + o.plane() * std::size_t(i), o.width, o.height, o.stride};
     }
 
-    /// @brief Gradient of a level, computed when first asked for.
-    [[nodiscard]] GradientView gradient(int octave, int i, unsigned threads = 1) const {
-        Octave& o = octaves_[std::size_t(octave)];
-        const std::size_t size = o.plane();
-        std::vector<float>& values = o.gradients[std::size_t(i)];
-        {
-            const std::lock_guard lock(*mutex_);
-            values.resize(2 * size);
-            if (!o.has_gradient[std::size_t(i)])
-                detail::polar_gradient(level(octave, i), {values.data(), o.width, o.height, o.stride},
-                                       {values.data() + size, o.width, o.height, o.stride}, threads);
-            o.has_gradient[std::size_t(i)] = true;
-        }
-        return {{values.data(), o.width, o.height, o.stride},
-                {values.data() + size, o.width, o.height, o.stride}};
+    /// @brief Every second pixel of the rows and columns of a level i = 1 … S, pixel (0, 0) the first.
+    [[nodiscard]] ImageView<const float> halved(int octave, int i) const {
+        const Octave& o = octaves_[std::size_t(octave)];
+        return {o.halves.data() + o.half_plane() * std::size_t(i - 1), (o.width + 1) / 2, (o.height + 1) / 2,
+                o.half_stride()};
+    }
+
+    /// @brief Where to look at what is around a feature of a scale (pixels of the input image): the level
+    /// nearest to it, halved where it is blurred enough for that, and input pixels a pixel of it.
+    /// @throws Error before build().
+    struct Sampling {
+        ImageView<const float> image;
+        float step = 1;
+    };
+    [[nodiscard]] Sampling sampling(float scale) const {
+        const auto [octave, i] = nearest_level(scale);
+        if (i == 0) return {level(octave, 0), step(octave)};
+        return {halved(octave, std::min(i, options_.levels_per_octave)), 2 * step(octave)};
     }
 
     /// @brief The level whose deviation is nearest to `scale` (pixels of the input image), among the levels
@@ -120,10 +153,12 @@ private:
     struct Octave {
         int width = 0, height = 0;
         std::ptrdiff_t stride = 0;
-        std::vector<float> pixels;                  // levels one after another
-        std::vector<std::vector<float>> gradients;  // a level's magnitudes, then its angles
-        std::vector<char> has_gradient;
+        AlignedVector<float> pixels, halves;  // levels one after another
         [[nodiscard]] std::size_t plane() const { return std::size_t(stride) * std::size_t(height); }
+        [[nodiscard]] std::ptrdiff_t half_stride() const { return whole_lines((width + 1) / 2); }
+        [[nodiscard]] std::size_t half_plane() const {
+            return std::size_t(half_stride()) * std::size_t((height + 1) / 2);
+        }
     };
 
     static void check(ImageView<const float> image, const ScaleSpaceOptions& options) {
@@ -140,17 +175,16 @@ private:
 
     void lay_out(int width, int height) {
         width_ = width, height_ = height, octave_count_ = 0;
-        if (!mutex_) mutex_ = std::make_unique<std::mutex>();
         int w = options_.double_first_octave ? 2 * width - 1 : width;
         int h = options_.double_first_octave ? 2 * height - 1 : height;
         for (; octave_count_ < options_.max_octaves; ++octave_count_, w = (w + 1) / 2, h = (h + 1) / 2) {
             if (octave_count_ > 0 && std::min(w, h) < options_.smallest_side) break;
             if (octaves_.size() == std::size_t(octave_count_)) octaves_.emplace_back();
             Octave& o = octaves_[std::size_t(octave_count_)];
-            o.width = w, o.height = h, o.stride = (w + 15) / 16 * 16;
+            o.width = w, o.height = h, o.stride = whole_lines(w);
             o.pixels.resize(std::size_t(levels()) * o.plane());
-            o.gradients.resize(std::size_t(levels()));
-            o.has_gradient.assign(std::size_t(levels()), false);
+            o.halves.resize(std::size_t(options_.levels_per_octave) * o.half_plane());
+            if (octave_count_ == 0 && options_.double_first_octave) doubled_.resize(o.plane());
         }
     }
 
@@ -159,60 +193,88 @@ private:
         return {o.pixels.data() + o.plane() * std::size_t(i), o.width, o.height, o.stride};
     }
 
-    [[nodiscard]] double relative_variance(int level) const {
-        return std::exp2(2.0 * level / options_.levels_per_octave);
+    [[nodiscard]] ImageView<float> half_plane(int octave, int i) {
+        Octave& o = octaves_[std::size_t(octave)];
+        return {o.halves.data() + o.half_plane() * std::size_t(i - 1), (o.width + 1) / 2, (o.height + 1) / 2,
+                o.half_stride()};
     }
 
-    /// The first level. A doubled image is put into the place of the second level, which is not yet used.
-    void fill_base(ImageView<const float> image, unsigned threads) {
-        double have = options_.input_sigma;
-        if (options_.double_first_octave) {
-            twice(image, plane(0, 1), threads);
-            image = level(0, 1);
-            have *= 2;
-        }
+    /// What blur makes a level out of the one before it.
+    [[nodiscard]] double missing_sigma(int level) const {
+        const double octaves = 2.0 / options_.levels_per_octave;
+        return options_.base_sigma * std::sqrt(std::exp2(level * octaves) - std::exp2((level - 1) * octaves));
+    }
+
+    /// What blur makes the first level out of the image, doubled or not; 0 where it needs none.
+    [[nodiscard]] double missing_base_sigma() const {
+        const double have = double(options_.input_sigma) * (options_.double_first_octave ? 2 : 1);
         const double missing = double(options_.base_sigma) * options_.base_sigma - have * have;
-        if (missing > 1e-3) return blur(image, gaussian_kernel(std::sqrt(missing)), plane(0, 0), threads);
-        for (int y = 0; y < image.height(); ++y)
-            std::copy_n(image.row(y).data(), image.width(), plane(0, 0).row(y).data());
+        return missing > 1e-3 ? std::sqrt(missing) : 0;
     }
 
-    /// Pixel 2x is pixel x of the image. Those between come from four neighbours by the weights
-    /// (−1, 9, 9, −1)/16, whose variance is 0: unlike means they add no blur.
-    static void twice(ImageView<const float> image, ImageView<float> out, unsigned threads) {
+    /// Rows of a level from the one before it, and of its half.
+    void make_level(ImageView<const float> image, int octave, int i, std::span<const float> kernel, int first,
+                    int end, unsigned worker, Workspace& workspace) {
+        if (octave == 0 && options_.double_first_octave) image = doubled_plane();
+        const ImageView<const float> from = i > 0        ? level(octave, i - 1)
+                                            : octave > 0 ? halved(octave - 1, options_.levels_per_octave)
+                                                         : image;
+        const ImageView<float> to = plane(octave, i);
+        if (kernel.empty()) {
+            for (int y = first; y < end; ++y) std::copy_n(from.row(y).data(), to.width(), to.row(y).data());
+        } else {
+            const int radius = int(kernel.size()) - 1;
+            const auto scratch = workspace.rows(worker, detail::blur_scratch(to.width(), radius));
+            detail::blur_band([&](int y) { return from.row(y).data(); }, to.width(), to.height(), kernel,
+                              first, end, scratch.data(), [&](int y) { return to.row(y).data(); });
+        }
+        if (i < 1 || i > options_.levels_per_octave) return;
+        const ImageView<float> half = half_plane(octave, i);
+        for (int y = (first + 1) / 2; 2 * y < end; ++y) {
+            const float* row = to.row(2 * y).data();
+            float* half_row = half.row(y).data();
+            for (int x = 0; x < half.width(); ++x) half_row[x] = row[2 * x];
+        }
+    }
+
+    /// Rows of the doubled image. Pixel 2x is pixel x of the image. Those between come from four neighbours
+    /// by the weights (−1, 9, 9, −1)/16, whose variance is 0: unlike means they add no blur.
+    void make_doubled(ImageView<const float> image, int octave, int first, int end, unsigned worker,
+                      Workspace& workspace) {
+        if (octave > 0 || !options_.double_first_octave) return;
         const int width = image.width(), last = image.height() - 1;
         const auto between = [](float a, float b, float c, float d) {
             return 0.5625f * (b + c) - 0.0625f * (a + d);
         };
         const auto source = [&](int y) { return image.row(std::clamp(y, 0, last)).data(); };
-        parallel_for(std::size_t(last) + 1, threads, [&](std::size_t task) {
-            std::vector<float> padded(std::size_t(width) + 3);
-            float* const row = padded.data() + 1;
-            for (int y = 2 * int(task); y < std::min(out.height(), 2 * int(task) + 2); ++y) {
-                const float *a = source(y / 2 - 1), *b = source(y / 2), *c = source(y / 2 + 1),
-                            *d = source(y / 2 + 2);
-                for (int x = 0; x < width; ++x) row[x] = y % 2 == 0 ? b[x] : between(a[x], b[x], c[x], d[x]);
-                row[-1] = row[0], row[width] = row[width + 1] = row[width - 1];
-                float* to = out.row(y).data();
-                for (int x = 0; x < width; ++x) to[2 * x] = row[x];
-                for (int x = 0; x < width - 1; ++x)
-                    to[2 * x + 1] = between(row[x - 1], row[x], row[x + 1], row[x + 2]);
+        const ImageView<float> out = doubled_plane();
+        float* __restrict row = workspace.rows(worker, std::size_t(width) + 3).data() + 1;
+        for (int y = first; y < end; ++y) {
+            const float *a = source(y / 2 - 1), *b = source(y / 2), *c = source(y / 2 + 1),
+                        *d = source(y / 2 + 2);
+            if (y % 2 == 0)
+                std::copy_n(b, width, row);
+            else
+                for (int x = 0; x < width; ++x) row[x] = between(a[x], b[x], c[x], d[x]);
+            row[-1] = row[0], row[width] = row[width + 1] = row[width - 1];
+            float* __restrict to = out.row(y).data();
+            for (int x = 0; x < width - 1; ++x) {
+                to[2 * x] = row[x];
+                to[2 * x + 1] = between(row[x - 1], row[x], row[x + 1], row[x + 2]);
             }
-        });
+            to[2 * width - 2] = row[width - 1];
+        }
     }
 
-    static void halve(ImageView<const float> image, ImageView<float> out) {
-        for (int y = 0; y < out.height(); ++y) {
-            const float* from = image.row(2 * y).data();
-            float* to = out.row(y).data();
-            for (int x = 0; x < out.width(); ++x) to[x] = from[2 * x];
-        }
+    [[nodiscard]] ImageView<float> doubled_plane() {
+        const Octave& o = octaves_[0];
+        return {doubled_.data(), o.width, o.height, o.stride};
     }
 
     ScaleSpaceOptions options_;
     int width_ = 0, height_ = 0, octave_count_ = 0;
-    mutable std::vector<Octave> octaves_;
-    std::unique_ptr<std::mutex> mutex_;
+    std::vector<Octave> octaves_;
+    AlignedVector<float> doubled_;
 };
 
 }  // namespace ism

@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <span>
 #include <string_view>
-#include <vector>
 
-#include "ism/core/parallel.hpp"
 #include "ism/feature/descriptor.hpp"
+#include "ism/feature/gradient.hpp"
 
 namespace ism {
 
@@ -23,110 +22,136 @@ inline constexpr int sift_cells = 4;   // along a side
 inline constexpr int sift_angles = 8;  // in a cell
 inline constexpr float sift_cell = 3;  // side of a cell in units of the feature's scale
 inline constexpr std::size_t sift_size = sift_cells * sift_cells * sift_angles;
-inline constexpr std::size_t features_per_task = 64;
-
-/// Calls `body(i)` for each feature, many to a task.
-template <std::invocable<std::size_t> Body>
-void for_each_feature(std::size_t count, unsigned threads, const Body& body) {
-    parallel_for((count + features_per_task - 1) / features_per_task, threads, [&](std::size_t task) {
-        const std::size_t first = task * features_per_task;
-        for (std::size_t i = first; i < std::min(count, first + features_per_task); ++i) body(i);
-    });
-}
-
-/// The level nearest to each feature, with the gradients of all of them ready.
-[[nodiscard]] inline std::vector<LevelIndex> gradient_levels(const ScaleSpace& space,
-                                                             std::span<const Feature> features,
-                                                             unsigned threads) {
-    std::vector<LevelIndex> levels(features.size());
-    std::vector<char> ready(std::size_t(space.octaves()) * std::size_t(space.levels()));
-    for (std::size_t i = 0; i < features.size(); ++i) {
-        levels[i] = space.nearest_level(features[i].scale);
-        char& is_ready =
-            ready[std::size_t(levels[i].octave) * std::size_t(space.levels()) + std::size_t(levels[i].level)];
-        if (is_ready == 0) (void)space.gradient(levels[i].octave, levels[i].level, threads);
-        is_ready = 1;
-    }
-    return levels;
-}
-
-/// exp(−t²/2) for the distances t = (first + i − centre) · factor.
-[[nodiscard]] inline std::vector<float> gaussian_weights(int first, int count, float centre, float factor) {
-    std::vector<float> weights(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) {
-        const float t = (float(first + i) - centre) * factor;
-        weights[std::size_t(i)] = std::exp(-0.5f * t * t);
-    }
-    return weights;
-}
 
 /// The histogram of gradient directions in 4×4 cells, each gradient shared between the neighbouring cells and
 /// directions and weighted by a Gaussian of half the window's side (Lowe 2004, section 6.1), not yet
-/// normalised.
-inline void sift_histogram(const GradientView& gradient, float x, float y, float sigma, float angle,
-                           std::span<float, sift_size> out) {
-    constexpr int padded = sift_cells + 2, bins = sift_angles + 1;
-    std::array<float, padded * padded * bins> histogram{};
-    const float cosine = std::cos(angle) / (sift_cell * sigma), sine = std::sin(angle) / (sift_cell * sigma);
-    // half a side of the upright square around the turned window and half a cell more
-    const float reach = 0.5f * (sift_cells + 1) * sift_cell * sigma *
-                        (std::fabs(std::cos(angle)) + std::fabs(std::sin(angle)));
-    const ImageView<const float> image = gradient.magnitude;
-    const int x0 = int(std::max(0.0f, std::ceil(x - reach)));
-    const int y0 = int(std::max(0.0f, std::ceil(y - reach)));
-    const int x1 = int(std::min(float(image.width() - 1), std::floor(x + reach)));
-    const int y1 = int(std::min(float(image.height() - 1), std::floor(y + reach)));
-    std::fill(out.begin(), out.end(), 0.0f);
-    if (x0 > x1 || y0 > y1) return;
-    const std::vector<float> weight_x =
-        gaussian_weights(x0, x1 - x0 + 1, x, 2 / (sift_cell * sift_cells * sigma));
+/// normalised. (x, y) and sigma are in pixels of `image`.
+class SiftWindow {
+public:
+    SiftWindow(ImageView<const float> image, float x, float y, float sigma, float angle)
+        : image_(image),
+          x_(x),
+          y_(y),
+          reach_(0.5f * (sift_cells + 1) * sift_cell * sigma *
+                 (std::fabs(std::cos(angle)) + std::fabs(std::sin(angle)))),
+          cosine_(std::cos(angle) / (sift_cell * sigma)),
+          sine_(std::sin(angle) / (sift_cell * sigma)),
+          turn_(angle * per_radian) {}
 
-    constexpr float bin_width = 2 * std::numbers::pi_v<float> / sift_angles;
-    const float turn = angle / bin_width;
-    for (int j = y0; j <= y1; ++j) {
-        const float dy = float(j) - y, ty = dy * 2 / (sift_cell * sift_cells * sigma);
-        const float weight_y = std::exp(-0.5f * ty * ty);
-        const float* magnitude = gradient.magnitude.row(j).data();
-        const float* direction = gradient.angle.row(j).data();
-        for (int i = x0; i <= x1; ++i) {
-            const float dx = float(i) - x;
-            // cells from −1 (half a cell before the first) to 4; +1 for the padding
-            const float u = cosine * dx + sine * dy + (sift_cells + 1) * 0.5f;
-            const float v = cosine * dy - sine * dx + (sift_cells + 1) * 0.5f;
-            if (!(u > 0 && v > 0 && u < sift_cells + 1 && v < sift_cells + 1)) continue;
-            float bin = direction[i] * (1 / bin_width) - turn;
+    void histogram(std::span<float, sift_size> out) {
+        const int y1 = last_at(y_, image_.height());
+        for (int y = first_at(y_); y <= y1; ++y) add_row(y);
+        share_out();
+        for (int v = 0; v < sift_cells; ++v)
+            for (int u = 0; u < sift_cells; ++u) {
+                const std::size_t cell = std::size_t((v + 1) * padded + u + 1) * bins;
+                float* to = out.data() + (v * sift_cells + u) * sift_angles;
+                for (std::size_t b = 0; b < sift_angles; ++b) to[b] = even_[cell + b] + odd_[cell + b];
+                to[0] += even_[cell + sift_angles] + odd_[cell + sift_angles];
+            }
+    }
+
+private:
+    static constexpr int padded = sift_cells + 2, bins = sift_angles + 1;  // the last bin is the first
+    static constexpr float per_radian = sift_angles / (2 * std::numbers::pi_v<float>);
+    static constexpr float middle = (sift_cells + 1) * 0.5f;
+
+    /// The first and last pixel in reach along one axis, of those with a gradient.
+    [[nodiscard]] int first_at(float centre) const {
+        return int(std::clamp(std::ceil(centre - reach_), 1.0f, 1e6f));
+    }
+    [[nodiscard]] int last_at(float centre, int side) const {
+        return int(std::clamp(std::floor(centre + reach_), 0.0f, float(side - 2)));
+    }
+
+    /// Where on a row a coordinate start + slope · dx of the window lies within it.
+    static void narrow(float start, float slope, float& low, float& high) {
+        constexpr float flat = 1e-6f;
+        if (std::fabs(slope) < flat) {
+            if (!(start > 0 && start < sift_cells + 1)) low = 1, high = -1;
+            return;
+        }
+        const float a = -start / slope, b = (sift_cells + 1 - start) / slope;
+        low = std::max(low, std::min(a, b)), high = std::min(high, std::max(a, b));
+    }
+
+    void add_row(int row) {
+        const float dy = float(row) - y_;
+        float low = -reach_, high = reach_;
+        narrow(sine_ * dy + middle, cosine_, low, high);
+        narrow(cosine_ * dy + middle, -sine_, low, high);
+        const int last = std::min(last_at(x_, image_.width()), int(std::floor(x_ + high)));
+        for (int x = std::max(first_at(x_), int(std::ceil(x_ + low))); x <= last;) {
+            const std::size_t count =
+                std::min(std::size_t(last - x + 1), GradientBatch::capacity - batch_.count);
+            batch_.add_row(image_, x, row, count, x_, y_);
+            x += int(count);
+            if (batch_.count == GradientBatch::capacity) share_out();
+        }
+    }
+
+    void share_out() {
+        batch_.make_polar();
+        // of a gradient: where it goes, and what goes there: to 2×2 cells and in each to two directions
+        alignas(64) std::array<std::int32_t, GradientBatch::capacity> place;
+        alignas(64) std::array<GradientBatch::Numbers, 8> part;
+        for (std::size_t k = 0; k < batch_.count; ++k) {
+            const float dx = batch_.dx[k], dy = batch_.dy[k];
+            const float across = cosine_ * dx + sine_ * dy, along = cosine_ * dy - sine_ * dx;
+            const float value = batch_.magnitude[k] * small_exp(0.125f * (across * across + along * along));
+            // cells from −1 (half a cell before the first) to 4; +1 for the padding. Rounding may leave a
+            // place a hair outside.
+            const float u = across + middle, v = along + middle;
+            const int iu = std::min(std::max(int(u), 0), sift_cells);
+            const int iv = std::min(std::max(int(v), 0), sift_cells);
+            float bin = batch_.angle[k] * per_radian - turn_;
             bin += bin < 0 ? float(sift_angles) : 0.0f;
             bin += bin < 0 ? float(sift_angles) : 0.0f;
             bin -= bin >= sift_angles ? float(sift_angles) : 0.0f;
-            const int iu = int(u), iv = int(v), ib = std::min(int(bin), sift_angles - 1);
+            const int ib = std::min(int(bin), sift_angles - 1);
             const float au = u - float(iu), av = v - float(iv), ab = bin - float(ib);
-            const float value = magnitude[i] * weight_x[std::size_t(i - x0)] * weight_y;
-            float* cell = histogram.data() + (iv * padded + iu) * bins + ib;
-            const float low = value * (1 - av), high = value * av;
-            const float ll = low * (1 - au), lh = low * au, hl = high * (1 - au), hh = high * au;
-            cell[0] += ll * (1 - ab), cell[1] += ll * ab;
-            cell[bins] += lh * (1 - ab), cell[bins + 1] += lh * ab;
-            cell += padded * bins;
-            cell[0] += hl * (1 - ab), cell[1] += hl * ab;
-            cell[bins] += hh * (1 - ab), cell[bins + 1] += hh * ab;
+            const float upper = value * (1 - av), lower = value * av;
+            const float ul = upper * (1 - au), ur = upper * au, ll = lower * (1 - au), lr = lower * au;
+            part[0][k] = ul * (1 - ab), part[1][k] = ul * ab;
+            part[2][k] = ur * (1 - ab), part[3][k] = ur * ab;
+            part[4][k] = ll * (1 - ab), part[5][k] = ll * ab;
+            part[6][k] = lr * (1 - ab), part[7][k] = lr * ab;
+            place[k] = (iv * padded + iu) * bins + ib;
         }
+        // neighbours often go to the same place: two histograms, so that no sum waits for the one before it
+        for (std::size_t k = 0; k < batch_.count; ++k) {
+            float* to = ((k & 1) == 0 ? even_.data() : odd_.data()) + place[k];
+            to[0] += part[0][k], to[1] += part[1][k];
+            to[bins] += part[2][k], to[bins + 1] += part[3][k];
+            to += padded * bins;
+            to[0] += part[4][k], to[1] += part[5][k];
+            to[bins] += part[6][k], to[bins + 1] += part[7][k];
+        }
+        batch_.count = 0;
     }
-    for (int v = 0; v < sift_cells; ++v)
-        for (int u = 0; u < sift_cells; ++u) {
-            float* cell = histogram.data() + ((v + 1) * padded + u + 1) * bins;
-            cell[0] += cell[sift_angles];
-            std::copy_n(cell, sift_angles, out.data() + (v * sift_cells + u) * sift_angles);
-        }
+
+    ImageView<const float> image_;
+    float x_, y_, reach_, cosine_, sine_, turn_;
+    GradientBatch batch_;
+    alignas(64) std::array<float, padded * padded * bins> even_{}, odd_{};
+};
+
+/// The sum of f(value), in eight parts, as a vector unit adds.
+template <class F>
+[[nodiscard]] float sum_of(std::span<const float, sift_size> row, const F& f) {
+    std::array<float, 8> parts{};
+    for (std::size_t i = 0; i < sift_size; i += 8)
+        for (std::size_t j = 0; j < 8; ++j) parts[j] += f(row[i + j]);
+    return ((parts[0] + parts[4]) + (parts[1] + parts[5])) + ((parts[2] + parts[6]) + (parts[3] + parts[7]));
 }
 
 /// To unit length, no number above 0.2, to unit length again; all 0 stays so.
 inline void normalise_sift(std::span<float, sift_size> row) {
-    for (const bool clip : {true, false}) {
-        float sum = 0;
-        for (const float value : row) sum += value * value;
+    for (const float most : {0.2f, 1.0f}) {
+        const float sum = sum_of(row, [](float value) { return value * value; });
         if (!(sum > 1e-12f)) return std::fill(row.begin(), row.end(), 0.0f);
         const float factor = 1 / std::sqrt(sum);
-        for (float& value : row) value = clip ? std::min(value * factor, 0.2f) : value * factor;
+        for (float& value : row) value = value * factor < most ? value * factor : most;
     }
 }
 
@@ -142,20 +167,10 @@ struct Sift {
     static constexpr float support_radius = detail::sift_cell * detail::sift_cells / 2;
     static constexpr double sq_length = 1;
 
-    [[nodiscard]] Descriptors<float, dimension> describe(const ScaleSpace& space,
-                                                         std::span<const Feature> features,
-                                                         unsigned threads) const {
-        Descriptors<float, dimension> rows(features.size());
-        const std::vector<LevelIndex> levels = detail::gradient_levels(space, features, threads);
-        detail::for_each_feature(features.size(), threads, [&](std::size_t i) {
-            const auto [octave, level] = levels[i];
-            const Feature& f = features[i];
-            const float pixels = 1 / space.step(octave);
-            detail::sift_histogram(space.gradient(octave, level), f.x * pixels, f.y * pixels,
-                                   f.scale * pixels, f.angle, rows.row(i));
-            detail::normalise_sift(rows.row(i));
-        });
-        return rows;
+    void describe(const ScaleSpace& space, const Feature& f, std::span<float, dimension> out) const {
+        const auto [image, step] = space.sampling(f.scale);
+        detail::SiftWindow(image, f.x / step, f.y / step, f.scale / step, f.angle).histogram(out);
+        detail::normalise_sift(out);
     }
 };
 
@@ -168,17 +183,12 @@ struct RootSift {
     static constexpr float support_radius = Sift::support_radius;
     static constexpr double sq_length = 1;
 
-    [[nodiscard]] Descriptors<float, dimension> describe(const ScaleSpace& space,
-                                                         std::span<const Feature> features,
-                                                         unsigned threads) const {
-        Descriptors<float, dimension> rows = Sift{}.describe(space, features, threads);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            float sum = 0;
-            for (const float value : rows.row(i)) sum += value;
-            if (!(sum > 0)) continue;
-            for (float& value : rows.row(i)) value = std::sqrt(value / sum);
-        }
-        return rows;
+    void describe(const ScaleSpace& space, const Feature& f, std::span<float, dimension> out) const {
+        Sift{}.describe(space, f, out);
+        const float sum = detail::sum_of(out, [](float value) { return value; });
+        if (!(sum > 0)) return;
+        const float factor = 1 / sum;
+        for (float& value : out) value = std::sqrt(value * factor);
     }
 };
 

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ism/core/image.hpp"
+#include "ism/io/images.hpp"
+
+namespace bench {
+
+using ByteImage = ism::Image<std::uint8_t>;
+
+/// @brief Where the real images are: the environment's ISM_DATA, else the project's ../shared/data.
+[[nodiscard]] inline std::filesystem::path data_folder() {
+    const char* folder = std::getenv("ISM_DATA");
+    return folder != nullptr && *folder != '\0' ? folder : ISM_DEFAULT_DATA;
+}
+
+[[nodiscard]] inline ByteImage read_bytes(const std::filesystem::path& file) {
+    const ism::GrayImage gray = ism::to_gray(ism::read_rgb(file));
+    ByteImage bytes(gray.width(), gray.height());
+    for (std::size_t i = 0; i < bytes.pixels().size(); ++i)
+        bytes.pixels()[i] = std::uint8_t(std::lround(255 * gray.pixels()[i]));
+    return bytes;
+}
+
+/// @brief The middle of an image, at most width × height pixels.
+[[nodiscard]] inline ByteImage crop(const ByteImage& image, int width, int height) {
+    width = std::min(width, image.width()), height = std::min(height, image.height());
+    const auto part =
+        image.view().region((image.width() - width) / 2, (image.height() - height) / 2, width, height);
+    ByteImage result(width, height);
+    for (int y = 0; y < height; ++y) std::copy_n(part.row(y).data(), width, result.row(y).data());
+    return result;
+}
+
+/// @brief The files named; without any the middle 640×480 of the first and fourth image of five Oxford
+/// sequences.
+[[nodiscard]] inline std::vector<ByteImage> photographs(const std::vector<std::string>& files) {
+    std::vector<ByteImage> images;
+    for (const std::string& file : files) images.push_back(read_bytes(file));
+    if (!images.empty()) return images;
+    for (const char* sequence : {"bikes", "boat", "graf", "leuven", "ubc"})
+        for (const char* name : {"img1.png", "img4.png"})
+            images.push_back(crop(read_bytes(data_folder() / "oxford-affine" / sequence / name), 640, 480));
+    return images;
+}
+
+}  // namespace bench

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ism/core/aligned.hpp"
+#include "ism/core/image.hpp"
+#include "ism/core/parallel.hpp"
+#include "ism/feature/feature.hpp"
+#include "ism/feature/gaussian_kernel.hpp"
+
+namespace ism {
+
+/// @brief The threads and the memory that features are found with, lent from frame to frame: after the first
+/// frame of a size nothing is allocated any more. For one frame at a time.
+class Workspace {
+public:
+    /// @brief For so many threads, the caller's among them (0 = all the machine has).
+    explicit Workspace(unsigned threads = 1) : team_(threads), rows_(team_.size()) {}
+
+    [[nodiscard]] Team& team() { return team_; }
+
+    /// @brief `count` numbers for one worker of the team, until it asks again; their values are open. The
+    /// first lies at the start of a cache line.
+    [[nodiscard]] std::span<float> rows(unsigned worker, std::size_t count) {
+        AlignedVector<float>& own = rows_[worker];
+        if (own.size() < count) own.resize(count);
+        return {own.data(), count};
+    }
+
+    /// @brief `count` empty lists, one for each task, until somebody asks again.
+    [[nodiscard]] std::span<std::vector<Feature>> lists(std::size_t count) {
+        if (lists_.size() < count) lists_.resize(count);
+        for (std::size_t i = 0; i < count; ++i) lists_[i].clear();
+        return {lists_.data(), count};
+    }
+
+    /// @brief `count` numbers of the which-th kind, until somebody asks for that kind again; values open.
+    [[nodiscard]] std::span<std::uint32_t> numbers(std::size_t which, std::size_t count) {
+        if (numbers_.size() <= which) numbers_.resize(which + 1);
+        if (numbers_[which].size() < count) numbers_[which].resize(count);
+        return {numbers_[which].data(), count};
+    }
+
+    /// @brief gaussian_kernel(sigma), kept from the first time on.
+    [[nodiscard]] std::span<const float> kernel(double sigma) {
+        for (const auto& [known, weights] : kernels_)
+            if (known == sigma) return weights;
+        return kernels_.emplace_back(sigma, gaussian_kernel(sigma)).second;
+    }
+
+    /// @brief An empty list to give back as a result; its memory is that of a list returned by reuse().
+    [[nodiscard]] std::vector<Feature> empty_list() {
+        if (spare_.empty()) return {};
+        std::vector<Feature> list = std::move(spare_.back());
+        spare_.pop_back();
+        list.clear();
+        return list;
+    }
+    /// @brief Takes back the memory of a list.
+    void reuse(std::vector<Feature> list) { spare_.push_back(std::move(list)); }
+
+    /// @brief An image, of which reuse() gave back one of this size, if any did; its pixels are open.
+    [[nodiscard]] GrayImage image(int width, int height) {
+        for (std::size_t i = 0; i < images_.size(); ++i)
+            if (images_[i].width() == width && images_[i].height() == height) {
+                std::swap(images_[i], images_.back());
+                GrayImage found = std::move(images_.back());
+                images_.pop_back();
+                return found;
+            }
+        images_.clear();
+        return GrayImage(width, height);
+    }
+    /// @brief Takes back the memory of an image.
+    void reuse(GrayImage image) {
+        if (!image.empty()) images_.push_back(std::move(image));
+    }
+
+private:
+    Team team_;
+    std::vector<AlignedVector<float>> rows_;
+    std::vector<std::vector<Feature>> lists_, spare_;
+    std::vector<std::vector<std::uint32_t>> numbers_;
+    std::vector<GrayImage> images_;
+    std::vector<std::pair<double, std::vector<float>>> kernels_;
+};
+
+}  // namespace ism

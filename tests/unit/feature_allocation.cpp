@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+#include "support/catch.hpp"
+
+#include "ism/core/random.hpp"
+#include "ism/feature/difference_of_gaussians.hpp"
+#include "ism/feature/extract.hpp"
+#include "ism/feature/harris_laplace.hpp"
+#include "ism/feature/hessian_laplace.hpp"
+#include "ism/feature/sift.hpp"
+
+// The sanitizers bring an operator new of their own; there this file tests nothing.
+#ifndef __SANITIZE_ADDRESS__
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"  // new and delete are both replaced here
+
+namespace {
+std::atomic<std::size_t> allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+    throw std::bad_alloc();
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    ++allocations;
+    const auto step = static_cast<std::size_t>(alignment);
+    if (void* memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+
+TEMPLATE_TEST_CASE("after the first frames of a size nothing is allocated", "", ism::DifferenceOfGaussians,
+                   ism::HessianLaplace, ism::HarrisLaplace) {
+    ism::Random random(2);
+    ism::Image<std::uint8_t> image(320, 240);
+    for (int y = 0; y < 240; ++y)
+        for (int x = 0; x < 320; ++x)
+            image(x, y) = std::uint8_t(128 + ((x / 17 + y / 23) % 2 == 0 ? 40 : -40) + random.uniform(-9, 9));
+    for (const unsigned threads : {1u, 2u})
+        for (const double upsampling : {1.0, 1.5}) {
+            CAPTURE(threads, upsampling);
+            ism::Extractor<TestType, ism::RootSift> settings;
+            settings.options = {.upsampling = upsampling, .oriented = true, .max_features = 300};
+            ism::FeatureExtractor<TestType, ism::RootSift> extractor(settings, threads);
+            std::size_t found = 0;
+            for (int frame = 0; frame < 3; ++frame) found = extractor.extract(image.view()).features.size();
+            // which worker finds how many features is open: lists may still grow where there are two
+            std::size_t least = SIZE_MAX;
+            for (int frame = 0; frame < 10 && least > 0; ++frame) {
+                const std::size_t before = allocations;
+                (void)extractor.extract(image.view());
+                least = std::min<std::size_t>(least, allocations - before);
+            }
+            CHECK(found > 100);
+            CHECK(least == 0);
+        }
+}
+
+#endif
