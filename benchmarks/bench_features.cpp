@@ -26,7 +26,8 @@ ism::GrayImage cloud(int width, int height) {
         for (float& value : grid.pixels()) value = float(random.uniform(-0.08, 0.08));
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
-                image(x, y) += ism::sample_bilinear(grid.view(), float(x) / float(cell), float(y) / float(cell));
+                image(x, y) +=
+                    ism::sample_bilinear(grid.view(), float(x) / float(cell), float(y) / float(cell));
     }
     return image;
 }
@@ -35,7 +36,7 @@ ism::GrayImage cloud(int width, int height) {
 
 TEST_CASE("features by stage", "[!benchmark]") {
     for (const auto& [width, height] : {std::pair{320, 240}, {640, 480}, {1280, 960}}) {
-        const std::string size = " " + std::to_string(width) + "x" + std::to_string(height);
+        const std::string size = ism::join_text(" ", width, "x", height);
         const ism::GrayImage image = cloud(width, height);
         ism::GrayImage blurred(width, height);
         ism::Workspace workspace;
@@ -44,7 +45,7 @@ TEST_CASE("features by stage", "[!benchmark]") {
         const ism::DifferenceOfGaussians dog;
         const auto features = dog.detect(space, workspace);
         const auto oriented = ism::assign_orientations(space, features, workspace);
-        const std::string count = ", " + std::to_string(oriented.size()) + " features";
+        const std::string count = ism::join_text(", ", oriented.size(), " features");
         const auto timed = [&](const auto& detector) {
             auto found = detector.detect(space, workspace);
             const std::size_t number = found.size();
@@ -60,9 +61,15 @@ TEST_CASE("features by stage", "[!benchmark]") {
             space.build(image.view(), {}, workspace);
             return space.octaves();
         };
-        BENCHMARK("difference of Gaussians" + size) { return timed(dog); };
-        BENCHMARK("Hessian-Laplace" + size) { return timed(ism::HessianLaplace{}); };
-        BENCHMARK("Harris-Laplace" + size) { return timed(ism::HarrisLaplace{}); };
+        BENCHMARK("difference of Gaussians" + size) {
+            return timed(dog);
+        };
+        BENCHMARK("Hessian-Laplace" + size) {
+            return timed(ism::HessianLaplace{});
+        };
+        BENCHMARK("Harris-Laplace" + size) {
+            return timed(ism::HarrisLaplace{});
+        };
         BENCHMARK("orientation" + size + count) {
             auto found = ism::assign_orientations(space, features, workspace);
             const std::size_t number = found.size();

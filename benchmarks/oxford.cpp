@@ -198,7 +198,7 @@ int main(int argc, char** argv) try {
     std::vector<std::string> only;
     CLI::App app("Repeatability and matching on the Oxford sequences, ours beside other libraries.");
     app.add_option("--data", data,
-                   "folder of sequences: each a folder of img1 ... img6 and H1to2p ... H1to6p");
+                   "a sequence, img1 ... img6 and H1to2p ... H1to6p, or a folder of sequences");
     app.add_option("--json", json, "write the rows to this file");
     app.add_option("--only", only, "only methods whose name holds one of these");
     CLI11_PARSE(app, argc, argv);
@@ -216,6 +216,7 @@ int main(int argc, char** argv) try {
         });
 
     std::vector<fs::path> sequences;
+    if (fs::exists(data / "H1to2p")) sequences.push_back(data);
     for (const auto& entry : fs::directory_iterator(data))
         if (fs::exists(entry.path() / "H1to2p")) sequences.push_back(entry.path());
     std::sort(sequences.begin(), sequences.end());

@@ -68,7 +68,7 @@ int main(int argc, char** argv) try {
     std::size_t rounds = 5;
     CLI::App app(
         "Time of features, ours beside other libraries. Without images: ten crops of the Oxford set.");
-    app.add_option("--images", files, "photographs to use, whole");
+    app.add_option("--images", files, "photographs to use, whole, or folders of them");
     app.add_option("--rounds", rounds, "measurements of each image, their median counts");
     app.add_option("--json", json, "write the rows to this file");
     CLI11_PARSE(app, argc, argv);

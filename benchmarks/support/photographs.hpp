@@ -41,11 +41,23 @@ using ByteImage = ism::Image<std::uint8_t>;
     return result;
 }
 
-/// @brief The files named; without any the middle 640×480 of the first and fourth image of five Oxford
-/// sequences.
+/// @brief The files named, and those of folders named; without any the middle 640×480 of the first and fourth
+/// image of five Oxford sequences.
 [[nodiscard]] inline std::vector<ByteImage> photographs(const std::vector<std::string>& files) {
     std::vector<ByteImage> images;
-    for (const std::string& file : files) images.push_back(read_bytes(file));
+    for (const std::filesystem::path file : files) {
+        std::vector<std::filesystem::path> all = {file};
+        if (std::filesystem::is_directory(file)) {
+            all.clear();
+            for (const auto& entry : std::filesystem::directory_iterator(file))
+                for (const char* ending : {".png", ".jpg", ".jpeg", ".ppm", ".pgm"})
+                    if (entry.path().extension() == ending) all.push_back(entry.path());
+            std::sort(all.begin(), all.end());
+        }
+        for (const std::filesystem::path& one : all) images.push_back(read_bytes(one));
+    }
+    ism::expect(files.empty() || !images.empty(), "photographs", "image files",
+                "none in " + (files.empty() ? std::string() : files.front()));
     if (!images.empty()) return images;
     for (const char* sequence : {"bikes", "boat", "graf", "leuven", "ubc"})
         for (const char* name : {"img1.png", "img4.png"})

@@ -40,8 +40,7 @@ template <ism::Detector D, ism::Descriptor Desc>
 Matched look_up(const ism::Model<D, Desc>& model, const ism::Frame& frame, unsigned threads) {
     auto found = ism::extract(frame.gray, model.extractor, threads);
     if (!frame.depth_m.empty()) found.features = ism::with_depth(std::move(found.features), frame.depth_m);
-    const ism::MatchMode mode = ism::DetectOptions<ism::Jism>{}.matching;
-    auto matches = ism::match(model.codebook, found.descriptors, mode, threads);
+    auto matches = ism::match(model.codebook, found.descriptors, threads);
     return {std::move(found.features), std::move(matches)};
 }
 

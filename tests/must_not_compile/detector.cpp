@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "ism/feature/extract.hpp"
+#include "ism/feature/sift.hpp"
 
 struct FindsNothing {
     static constexpr std::string_view name = "finds-nothing";

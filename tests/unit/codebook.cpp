@@ -144,15 +144,17 @@ TEST_CASE("matching finds all words within the threshold, or the nearest of each
         }
         for (std::uint32_t w = 0; w < words.size(); ++w)
             for (const auto& [d, hit] : hits[w % 3])
-                if (hit == w) all.push_back({i, w, 1.0f / float(hits[w % 3].size())});
+                if (hit == w)
+                    all.push_back({i, w, 1.0f / float(hits[w % 3].size()),
+                                   w == std::min_element(hits[w % 3].begin(), hits[w % 3].end())->second});
         for (auto& [group, list] : hits)
             if (!list.empty())
-                nearest.push_back({i, std::min_element(list.begin(), list.end())->second, 1.0f});
+                nearest.push_back({i, std::min_element(list.begin(), list.end())->second, 1.0f, true});
     }
     REQUIRE(all.size() > 1000);
-    CHECK(ism::match(codebook, descriptors, ism::MatchMode::all, 1) == all);
-    CHECK(ism::match(codebook, descriptors, ism::MatchMode::all, 2) == all);
-    CHECK(ism::match(codebook, descriptors, ism::MatchMode::nearest, 2) == nearest);
+    CHECK(ism::match(codebook, descriptors, 1) == all);
+    CHECK(ism::match(codebook, descriptors, 2) == all);
+    CHECK(ism::nearest_only(all) == nearest);
 }
 
 TEST_CASE("information gain follows Eq 3 computed by hand") {

@@ -127,6 +127,23 @@ TEST_CASE("SIFT equals the sum over all pixels, cells and directions") {
             }
 }
 
+TEST_CASE("SIFT is finite and not negative wherever a feature lies and however it is turned") {
+    ism::ScaleSpace space;
+    space.build(noise(90, 71).view());
+    ism::Random random(4);
+    std::size_t wrong = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const ism::Feature feature{.x = float(std::round(random.uniform(-5, 95) * 4) / 4),
+                                   .y = float(std::round(random.uniform(-5, 76) * 4) / 4),
+                                   .scale = float(std::exp2(random.uniform(-1, 4))),
+                                   .angle = i % 2 == 0 ? 0.0f : float(random.uniform(-20, 20))};
+        std::array<float, 128> row;
+        ism::RootSift{}.describe(space, feature, row);
+        for (const float value : row) wrong += value >= 0 && value <= 1 ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("SIFT and RootSIFT have unit length, and zeros where nothing is to see") {
     const auto image = noise(80, 60);
     const ism::Feature feature{.x = 33, .y = 21, .scale = 2};

@@ -167,7 +167,7 @@ TEST_CASE("A model file tells what is in it") {
     CHECK(info.upsampling == 1.75);
     CHECK(info.max_sq_distance == 0.1);
     CHECK(info.reference_size_px == ism::reference_size_px);
-    CHECK(info.format_version == 2);
+    CHECK(info.format_version == 3);
     CHECK(info.parameters.find("\"alpha\"") != std::string::npos);
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": max_sq_distance: expected 0 or more", [](File& f) { f.metadata["max_sq_distance"] = "-1"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 2, got 1", [](File& f) { f.metadata["format_version"] = "1"; }},
+        {": format version: expected 3, got 1", [](File& f) { f.metadata["format_version"] = "1"; }},
         {": expected metadata 'parameters'", [](File& f) { f.metadata.erase("parameters"); }},
         {", parameters: extraction", [](File& f) { f.metadata["parameters"] = "{}"; }},
         {": expected a tensor 'mask_runs'", [](File& f) { f.tensors.erase("mask_runs"); }},

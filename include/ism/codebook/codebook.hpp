@@ -34,11 +34,12 @@ struct Codebook {
 struct Match {
     std::uint32_t feature = 0;
     std::uint32_t word = 0;
-    float weight = 0;  ///< p(word | feature) = 1 / number of words of the group that the feature matches
+    float weight = 0;      ///< p(word | feature) = 1 / number of words of the group that the feature matches
+    bool nearest = false;  ///< no other word of the group is nearer
     [[nodiscard]] bool operator==(const Match&) const = default;
 };
 
-/// @brief Which words a feature is matched with.
+/// @brief Which words of a feature cast votes.
 enum class MatchMode {
     all,      ///< every word within the threshold (soft matching)
     nearest,  ///< only the nearest of each group, if within the threshold
@@ -86,7 +87,7 @@ template <std::size_t Dimension>
 template <std::size_t Dimension, DescriptorScalar Scalar>
 [[nodiscard]] std::vector<Match> match(const Codebook<Dimension>& codebook,
                                        const Descriptors<Scalar, Dimension>& descriptors,
-                                       MatchMode mode = MatchMode::all, unsigned threads = 0) {
+                                       unsigned threads = 0) {
     constexpr std::size_t rows = 64, columns = 512;
     constexpr auto length = static_cast<Eigen::Index>(Dimension);
     const Eigen::Map<const Eigen::MatrixXf> words(codebook.words.values().data(), length,
@@ -126,25 +127,31 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
         std::vector<std::pair<float, std::uint32_t>> nearest(groups);
         for (std::size_t i = 0; i < height; ++i) {
             const auto feature = static_cast<std::uint32_t>(first_row + i);
-            if (mode == MatchMode::all) {
-                std::fill(count.begin(), count.end(), 0u);
-                for (const auto& [word, distance] : near[i]) ++count[codebook.group[word]];
-                for (const auto& [word, distance] : near[i])
-                    found[block].push_back({feature, word, 1.0f / float(count[codebook.group[word]])});
-            } else {
-                std::fill(nearest.begin(), nearest.end(),
-                          std::pair(std::numeric_limits<float>::infinity(), 0u));
-                for (const auto& [word, distance] : near[i])
-                    nearest[codebook.group[word]] =
-                        std::min(nearest[codebook.group[word]], std::pair(distance, word));
-                for (const auto& [distance, word] : nearest)
-                    if (distance <= threshold) found[block].push_back({feature, word, 1.0f});
+            std::fill(count.begin(), count.end(), 0u);
+            std::fill(nearest.begin(), nearest.end(), std::pair(std::numeric_limits<float>::infinity(), 0u));
+            for (const auto& [word, distance] : near[i]) {
+                const std::uint32_t group = codebook.group[word];
+                ++count[group];
+                nearest[group] = std::min(nearest[group], std::pair(distance, word));
+            }
+            for (const auto& [word, distance] : near[i]) {
+                const std::uint32_t group = codebook.group[word];
+                found[block].push_back(
+                    {feature, word, 1.0f / float(count[group]), nearest[group].second == word});
             }
         }
     });
     std::vector<Match> matches;
     for (const auto& part : found) matches.insert(matches.end(), part.begin(), part.end());
     return matches;
+}
+
+/// @brief Of the matches of match() the nearest word of each group, with the weight 1.
+[[nodiscard]] inline std::vector<Match> nearest_only(std::span<const Match> matches) {
+    std::vector<Match> nearest;
+    for (const Match& match : matches)
+        if (match.nearest) nearest.push_back({match.feature, match.word, 1.0f, true});
+    return nearest;
 }
 
 }  // namespace ism

@@ -70,7 +70,7 @@ public:
 private:
     /// Loops follow each other closely: looks a while before it sleeps.
     static void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-        for (int look = 0; look < 5000; ++look)
+        for (int look = 0; look < 50000; ++look)
             if (value.load() != old) return;
         value.wait(old);
     }

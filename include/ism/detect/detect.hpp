@@ -31,7 +31,7 @@ struct DetectOptions {
     std::size_t max_hypotheses = 40;  ///< so many of the strongest are cut out and verified
     double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
     double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object
-    MatchMode matching = MatchMode::nearest;  ///< soft matching is needed in training alone
+    MatchMode matching = MatchMode::nearest;  ///< of votes; training and the judge of boxes match softly
     float min_vote_weight = 0.0005f;          ///< lighter votes are dropped
     MeanShiftOptions mean_shift = {};
     SegmentOptions segmentation = {};
@@ -161,7 +161,10 @@ template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
         [](const TrainingObject& a, const TrainingObject& b) { return a.size_px < b.size_px; });
     const double min_size_px = options.min_size_px > 0 ? options.min_size_px : smallest->size_px / 2;
     const double max_size_px = options.max_size_px > 0 ? options.max_size_px : largest->size_px * 2;
-    const auto votes = cast_votes<Space>(features, matches, shapes,
+    std::vector<Match> nearest;
+    if (options.matching == MatchMode::nearest) nearest = nearest_only(matches);
+    const auto voting = options.matching == MatchMode::nearest ? std::span<const Match>(nearest) : matches;
+    const auto votes = cast_votes<Space>(features, voting, shapes,
                                          {.width = static_cast<double>(frame.gray.width()),
                                           .height = static_cast<double>(frame.gray.height()),
                                           .min_scale = min_size_px / reference_size_px,
@@ -216,7 +219,7 @@ template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl, D
            "one, since the vote space uses depth", "none");
     auto found = extract(frame.gray, model.extractor, options.threads);
     if (!frame.depth_m.empty()) found.features = with_depth(std::move(found.features), frame.depth_m);
-    const auto matches = match(model.codebook, found.descriptors, options.matching, options.threads);
+    const auto matches = match(model.codebook, found.descriptors, options.threads);
     return detect_from_matches<Space, K>(std::move(found.features), matches, model.shapes, frame, options,
                                          verifier);
 }

@@ -120,7 +120,7 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
     parallel_for(images, threads, [&](std::size_t i) {
         const TrainingImage image = source(i);
         const auto found = extract(image.frame.gray, model.extractor, 1);
-        const auto matches = match(model.codebook, found.descriptors, search.matching, 1);
+        const auto matches = match(model.codebook, found.descriptors, 1);
         const auto holds = [&](const Box& box) {
             return word_histogram(found.features, matches, words, box);
         };

@@ -121,7 +121,7 @@ template <Detector D, Descriptor Desc>
     if (options.progress) options.progress("clustering", 0, 1);
     const auto words = detail::learn_words(harvest.descriptors, seen, classes, max_sq_distance, options);
     if (options.progress) options.progress("clustering", 1, 1);
-    std::vector<Match> matches = match(words, harvest.descriptors, MatchMode::all, options.threads);
+    std::vector<Match> matches = match(words, harvest.descriptors, options.threads);
     if (options.codebook == CodebookKind::per_class)
         std::erase_if(matches,
                       [&](const Match& m) { return words.group[m.word] != seen[m.feature].class_index; });

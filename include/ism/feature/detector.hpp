@@ -23,15 +23,4 @@ concept Detector = std::copyable<D> &&
     { detector.detect(space, workspace) } -> std::same_as<std::vector<Feature>>;
 };
 
-/// @brief A detector that can search rows while the scale space is built: what `search` appends for rows of
-/// an octave depends on the levels up to `search_reach` rows above and below alone. `check` throws where an
-/// option is out of range.
-template <class D>
-concept RowDetector = Detector<D> &&
-    requires(const D& detector, const ScaleSpace& space, Workspace& workspace, std::vector<Feature>& found) {
-    detector.check();
-    { D::search_reach } -> std::convertible_to<int>;
-    { detector.search(space, int(), int(), int(), workspace, unsigned(), found) } -> std::same_as<void>;
-};
-
 }  // namespace ism

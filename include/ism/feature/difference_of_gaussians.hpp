@@ -13,8 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ism/feature/detector.hpp"
-#include "ism/feature/local_maxima.hpp"
+#include "ism/feature/row_detector.hpp"
 
 namespace ism {
 
@@ -46,23 +45,7 @@ struct DifferenceOfGaussians {
 
     /// @throws Error where an option is out of range.
     [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, Workspace& workspace) const {
-        check();
-        constexpr int rows_per_task = 32;
-        std::size_t tasks = 0;
-        const auto tasks_of = [&](int octave) {
-            return std::size_t((space.level(octave, 0).height() + rows_per_task - 1) / rows_per_task);
-        };
-        for (int octave = 0; octave < space.octaves(); ++octave) tasks += tasks_of(octave);
-        const auto found = workspace.lists(workspace.team().size());
-        workspace.team().each(tasks, [&](std::size_t task, unsigned worker) {
-            int octave = 0;
-            std::size_t band = task;
-            for (; band >= tasks_of(octave); ++octave) band -= tasks_of(octave);
-            const int first = int(band) * rows_per_task;
-            search(space, octave, first, std::min(first + rows_per_task, space.level(octave, 0).height()),
-                   workspace, worker, found[worker]);
-        });
-        return detail::in_order(found, workspace);
+        return search_all_rows(*this, space, workspace);
     }
 
     /// @brief How many rows above and below the rows searched are looked at.

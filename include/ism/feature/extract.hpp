@@ -5,84 +5,26 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <optional>
-#include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "ism/feature/descriptor.hpp"
-#include "ism/feature/detector.hpp"
+#include "ism/feature/extractor.hpp"
+#include "ism/feature/keep_strongest.hpp"
 #include "ism/feature/orientation.hpp"
 #include "ism/feature/resize.hpp"
+#include "ism/feature/row_detector.hpp"
 #include "ism/feature/workspace.hpp"
 
 namespace ism {
-
-/// @brief What is done around detector and descriptor.
-struct ExtractOptions {
-    ScaleSpaceOptions scale_space = {};
-    double upsampling = 1;         ///< the image is resized by this factor before; > 0
-    bool oriented = false;         ///< features get dominant directions, and may multiply
-    std::size_t max_features = 0;  ///< keep so many, strong and spread over the image; 0 = all
-};
-
-/// @brief How features are got from an image: a detector, a descriptor, options.
-template <Detector D, Descriptor Desc>
-struct Extractor {
-    using DetectorType = D;
-    using DescriptorType = Desc;
-    D detector = {};
-    Desc descriptor = {};
-    ExtractOptions options = {};
-};
-
-/// @brief Features with their descriptors: row i describes feature i.
-template <Descriptor Desc>
-struct FeatureSet {
-    std::vector<Feature> features;
-    Descriptors<typename Desc::Scalar, Desc::dimension> descriptors;
-};
 
 /// @brief A part of an image, whole pixels: columns x … x + width − 1, rows y … y + height − 1.
 struct Region {
     int x = 0, y = 0, width = 0, height = 0;
 };
-
-/// @brief Leaves at most `count` of the features, strong ones and such that they cover the image evenly, in
-/// the order they came in: the image (width × height pixels) is cut into cells which take turns giving their
-/// strongest.
-inline void keep_strongest_evenly(std::vector<Feature>& features, std::size_t count, int width, int height,
-                                  Workspace& workspace) {
-    if (features.size() <= count) return;
-    const double area = std::max(1.0, double(width) * height);
-    const double side = std::sqrt(area / std::max(1.0, double(count) / 8));
-    const double columns = std::floor(width / side) + 1;
-    const auto cell = workspace.numbers(0, features.size()), order = workspace.numbers(1, features.size());
-    const auto turn = workspace.numbers(2, features.size());
-    for (std::size_t i = 0; i < features.size(); ++i) {
-        const double column = std::clamp(std::floor(double(features[i].x) / side), 0.0, columns - 1);
-        cell[i] = std::uint32_t(std::max(0.0, std::floor(double(features[i].y) / side)) * columns + column);
-    }
-    std::iota(order.begin(), order.end(), 0u);
-    const auto sort_by = [&](std::span<const std::uint32_t> first) {
-        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::tuple(first[a], -features[a].strength, a) <
-                   std::tuple(first[b], -features[b].strength, b);
-        });
-    };
-    sort_by(cell);
-    turn[order[0]] = 0;
-    for (std::size_t i = 1; i < order.size(); ++i)
-        turn[order[i]] = cell[order[i]] == cell[order[i - 1]] ? turn[order[i - 1]] + 1 : 0;
-    sort_by(turn);
-    std::sort(order.begin(), order.begin() + std::ptrdiff_t(count));
-    for (std::size_t i = 0; i < count; ++i) features[i] = features[order[i]];
-    features.resize(count);
-}
 
 /// @brief Finds and describes the features of one image after another with the same threads and memory: after
 /// the first of a size nothing is allocated any more. One image at a time.
@@ -100,7 +42,61 @@ public:
     /// @throws Error where the image, resized or not, or the region is smaller than 16×16, a pixel is not
     /// finite or an option is out of range.
     const FeatureSet<Desc>& extract(ImageView<const float> image, std::optional<Region> region = {}) {
-        check(image);
+        check_size(image);
+        each_row(image.height(), [&](int y) { check_finite(image, y); });
+        return part(image, region);
+    }
+
+    /// @brief The same for an image of 8 bits, 0 (black) … 255 (white).
+    const FeatureSet<Desc>& extract(ImageView<const std::uint8_t> image, std::optional<Region> region = {}) {
+        check_size(image);
+        GrayImage gray = workspace_.image(image.width(), image.height());
+        each_row(image.height(), [&](int y) {
+            const std::uint8_t* from = image.row(y).data();
+            float* to = gray.row(y).data();
+            for (int x = 0; x < image.width(); ++x) to[x] = float(from[x]) / 255.0f;
+        });
+        part(gray.view(), region);
+        workspace_.reuse(std::move(gray));
+        return set_;
+    }
+
+    /// @brief What the last image gave, to keep.
+    [[nodiscard]] FeatureSet<Desc> take() { return std::move(set_); }
+    /// @brief Scale space of the last image, resized by its upsampling.
+    [[nodiscard]] const ScaleSpace& scale_space() const { return space_; }
+
+private:
+    template <class T>
+    void check_size(ImageView<const T> image) const {
+        const double factor = extractor_.options.upsampling;
+        expect(std::isfinite(factor) && factor > 0, "upsampling", "a positive number", factor);
+        expect(image.width() >= 16 && image.height() >= 16, "image size", "at least 16x16", size_text(image));
+    }
+
+    static void check_finite(ImageView<const float> image, int y) {
+        int wrong = 0;
+        for (const float value : image.row(y)) wrong |= int(!(std::fabs(value) <= FLT_MAX));
+        if (wrong == 0) return;
+        for (int x = 0; x < image.width(); ++x)
+            if (!std::isfinite(image(x, y)))
+                throw Error(join_text("image brightness at (", x, ", ", y, "): expected a finite value, got ",
+                                      image(x, y)));
+    }
+
+    template <std::invocable<int> Body>
+    void each_row(int rows, const Body& body) {
+        constexpr int rows_per_task = 32;
+        workspace_.team().each(std::size_t(rows + rows_per_task - 1) / rows_per_task,
+                               [&](std::size_t task, unsigned) {
+                                   const int first = int(task) * rows_per_task;
+                                   for (int y = first; y < std::min(rows, first + rows_per_task); ++y)
+                                       body(y);
+                               });
+    }
+
+    /// The features of a region, or of the whole image.
+    const FeatureSet<Desc>& part(ImageView<const float> image, const std::optional<Region>& region) {
         if (!region) return run(image, 0, 0, {0, 0, image.width(), image.height()});
         (void)image.region(region->x, region->y, region->width, region->height);
         expect(region->width >= 16 && region->height >= 16, "image region size", "at least 16x16",
@@ -112,40 +108,6 @@ public:
         const int x1 = std::min(image.width(), region->x + region->width + margin);
         const int y1 = std::min(image.height(), region->y + region->height + margin);
         return run(image.region(x0, y0, x1 - x0, y1 - y0), x0, y0, *region);
-    }
-
-    /// @brief The same for an image of 8 bits, 0 (black) … 255 (white).
-    const FeatureSet<Desc>& extract(ImageView<const std::uint8_t> image, std::optional<Region> region = {}) {
-        GrayImage gray = workspace_.image(image.width(), image.height());
-        for (int y = 0; y < image.height(); ++y) {
-            const std::uint8_t* from = image.row(y).data();
-            float* to = gray.row(y).data();
-            for (int x = 0; x < image.width(); ++x) to[x] = float(from[x]) / 255.0f;
-        }
-        extract(gray.view(), region);
-        workspace_.reuse(std::move(gray));
-        return set_;
-    }
-
-    /// @brief What the last image gave, to keep.
-    [[nodiscard]] FeatureSet<Desc> take() { return std::move(set_); }
-    /// @brief Scale space of the last image, resized by its upsampling.
-    [[nodiscard]] const ScaleSpace& scale_space() const { return space_; }
-
-private:
-    void check(ImageView<const float> image) const {
-        const double factor = extractor_.options.upsampling;
-        expect(std::isfinite(factor) && factor > 0, "upsampling", "a positive number", factor);
-        expect(image.width() >= 16 && image.height() >= 16, "image size", "at least 16x16", size_text(image));
-        for (int y = 0; y < image.height(); ++y) {
-            int wrong = 0;
-            for (const float value : image.row(y)) wrong |= int(!(std::fabs(value) <= FLT_MAX));
-            if (wrong == 0) continue;
-            for (int x = 0; x < image.width(); ++x)
-                if (!std::isfinite(image(x, y)))
-                    throw Error(join_text("image brightness at (", x, ", ", y,
-                                          "): expected a finite value, got ", image(x, y)));
-        }
     }
 
     /// The features of an image in pixels of the scale space.

@@ -36,7 +36,7 @@ public:
                  (std::fabs(std::cos(angle)) + std::fabs(std::sin(angle)))),
           cosine_(std::cos(angle) / (sift_cell * sigma)),
           sine_(std::sin(angle) / (sift_cell * sigma)),
-          turn_(angle * per_radian) {}
+          turn_(std::remainder(angle, 2 * std::numbers::pi_v<float>) * per_radian) {}
 
     void histogram(std::span<float, sift_size> out) {
         const int y1 = last_at(y_, image_.height());
@@ -101,9 +101,10 @@ private:
             const float value = batch_.magnitude[k] * small_exp(0.125f * (across * across + along * along));
             // cells from −1 (half a cell before the first) to 4; +1 for the padding. Rounding may leave a
             // place a hair outside.
-            const float u = across + middle, v = along + middle;
-            const int iu = std::min(std::max(int(u), 0), sift_cells);
-            const int iv = std::min(std::max(int(v), 0), sift_cells);
+            const float most = sift_cells + 1;
+            const float u = std::min(std::max(across + middle, 0.0f), most);
+            const float v = std::min(std::max(along + middle, 0.0f), most);
+            const int iu = std::min(int(u), sift_cells), iv = std::min(int(v), sift_cells);
             float bin = batch_.angle[k] * per_radian - turn_;
             bin += bin < 0 ? float(sift_angles) : 0.0f;
             bin += bin < 0 ? float(sift_angles) : 0.0f;

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "ism/feature/descriptor.hpp"
+#include "ism/feature/detector.hpp"
+
+namespace ism {
+
+/// @brief What is done around detector and descriptor.
+struct ExtractOptions {
+    ScaleSpaceOptions scale_space = {};
+    double upsampling = 1;         ///< the image is resized by this factor before; > 0
+    bool oriented = false;         ///< features get dominant directions, and may multiply
+    std::size_t max_features = 0;  ///< keep so many, strong and spread over the image; 0 = all
+};
+
+/// @brief How features are got from an image: a detector, a descriptor, options.
+template <Detector D, Descriptor Desc>
+struct Extractor {
+    using DetectorType = D;
+    using DescriptorType = Desc;
+    D detector = {};
+    Desc descriptor = {};
+    ExtractOptions options = {};
+};
+
+/// @brief Features with their descriptors: row i describes feature i.
+template <Descriptor Desc>
+struct FeatureSet {
+    std::vector<Feature> features;
+    Descriptors<typename Desc::Scalar, Desc::dimension> descriptors;
+};
+
+}  // namespace ism
