@@ -147,9 +147,11 @@ TEST_CASE("matching finds all words within the threshold, or the nearest of each
                 if (hit == w)
                     all.push_back({i, w, 1.0f / float(hits[w % 3].size()),
                                    w == std::min_element(hits[w % 3].begin(), hits[w % 3].end())->second});
-        for (auto& [group, list] : hits)
-            if (!list.empty())
-                nearest.push_back({i, std::min_element(list.begin(), list.end())->second, 1.0f, true});
+        std::vector<std::uint32_t> best;
+        for (const auto& [group, list] : hits)
+            if (!list.empty()) best.push_back(std::min_element(list.begin(), list.end())->second);
+        std::sort(best.begin(), best.end());
+        for (const std::uint32_t w : best) nearest.push_back({i, w, 1.0f, true});
     }
     REQUIRE(all.size() > 1000);
     CHECK(ism::match(codebook, descriptors, 1) == all);

@@ -122,13 +122,14 @@ public:
                 o.half_stride()};
     }
 
-    /// @brief Where to look at what is around a feature of a scale (pixels of the input image): the level
-    /// nearest to it, halved where it is blurred enough for that, and input pixels a pixel of it.
-    /// @throws Error before build().
+    /// @brief A level or half of one, and input pixels a pixel of it.
     struct Sampling {
         ImageView<const float> image;
         float step = 1;
     };
+    /// @brief Where to look at what is around a feature of a scale (pixels of the input image): the level
+    /// nearest to it, halved where it is blurred enough for that.
+    /// @throws Error before build().
     [[nodiscard]] Sampling sampling(float scale) const {
         const auto [octave, i] = nearest_level(scale);
         if (i == 0) return {level(octave, 0), step(octave)};

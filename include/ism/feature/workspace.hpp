@@ -62,8 +62,11 @@ public:
         list.clear();
         return list;
     }
-    /// @brief Takes back the memory of a list.
-    void reuse(std::vector<Feature> list) { spare_.push_back(std::move(list)); }
+    /// @brief Takes back the memory of a list; of many that nobody asks for a few are kept.
+    void reuse(std::vector<Feature> list) {
+        constexpr std::size_t most_spare = 4;
+        if (spare_.size() < most_spare) spare_.push_back(std::move(list));
+    }
 
     /// @brief An image, of which reuse() gave back one of this size, if any did; its pixels are open.
     [[nodiscard]] GrayImage image(int width, int height) {
