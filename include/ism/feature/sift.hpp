@@ -48,6 +48,7 @@ public:
                 float* to = out.data() + (v * sift_cells + u) * sift_angles;
                 for (std::size_t b = 0; b < sift_angles; ++b) to[b] = even_[cell + b] + odd_[cell + b];
                 to[0] += even_[cell + sift_angles] + odd_[cell + sift_angles];
+                for (std::size_t b = 0; b < sift_angles; ++b) to[b] = std::max(to[b], 0.0f);
             }
     }
 
@@ -100,11 +101,10 @@ private:
             const float across = cosine_ * dx + sine_ * dy, along = cosine_ * dy - sine_ * dx;
             const float value = batch_.magnitude[k] * small_exp(0.125f * (across * across + along * along));
             // cells from −1 (half a cell before the first) to 4; +1 for the padding. Rounding may leave a
-            // place a hair outside.
-            const float most = sift_cells + 1;
-            const float u = std::min(std::max(across + middle, 0.0f), most);
-            const float v = std::min(std::max(along + middle, 0.0f), most);
-            const int iu = std::min(int(u), sift_cells), iv = std::min(int(v), sift_cells);
+            // place a hair outside, and what it gives a hair below 0.
+            const float u = across + middle, v = along + middle;
+            const int iu = std::min(std::max(int(u), 0), sift_cells);
+            const int iv = std::min(std::max(int(v), 0), sift_cells);
             float bin = batch_.angle[k] * per_radian - turn_;
             bin += bin < 0 ? float(sift_angles) : 0.0f;
             bin += bin < 0 ? float(sift_angles) : 0.0f;
