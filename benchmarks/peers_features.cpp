@@ -69,7 +69,8 @@ int main(int argc, char** argv) try {
     CLI::App app(
         "Time of features, ours beside other libraries. Without images: ten crops of the Oxford set.");
     app.add_option("--images", files, "photographs to use, whole, or folders of them");
-    app.add_option("--rounds", rounds, "measurements of each image, their median counts");
+    app.add_option("--rounds", rounds, "measurements of each image, their median counts")
+        ->check(CLI::Range(1, 1000));
     app.add_option("--json", json, "write the rows to this file");
     CLI11_PARSE(app, argc, argv);
     const std::vector<ByteImage> images = bench::photographs(files);
@@ -90,7 +91,8 @@ int main(int argc, char** argv) try {
 #endif
     std::printf(
         "%zu images; oriented features, first octave doubled, 3 levels an octave, 8-bit input, float "
-        "SIFT; ours: contrast 0.04, edge 10, Laplace detectors with default thresholds\n",
+        "SIFT; ours: contrast 0.04, edge 10, Laplace detectors with default thresholds, input_sigma 0 (it "
+        "doubles without blur)\n",
         images.size());
     for (const Comparison& c : comparisons)
         std::printf("  %s: %s\n", c.peer.name.c_str(), c.peer.settings.c_str());
