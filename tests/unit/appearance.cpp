@@ -111,3 +111,25 @@ TEST_CASE("shapes without objects: the others of a word say what these said") {
     const auto all = ism::detail::without_objects(shapes, 1, 1);
     CHECK(all.occurrences[0].weight == 0.5f);
 }
+
+TEST_CASE("a mirror exchanges left and right of an image and its labels, and twice is once") {
+    ism::TrainingImage image;
+    image.frame.gray = ism::GrayImage(4, 2, {0, 1, 2, 3, 4, 5, 6, 7});
+    image.frame.depth_m = ism::DepthMap(4, 2, {1, 1, 2, 2, 3, 3, 4, 4});
+    image.frame.camera = ism::Camera{.fx = 10, .fy = 10, .cx = 1, .cy = 0.5};
+    image.objects = {
+        {.class_index = 1, .box = {0, 1, 2, 1}, .mask = ism::Mask(4, 2, {0, 0, 0, 0, 1, 1, 0, 0})},
+        {.class_index = 0, .box = {3, 0, 1, 2}}};
+    const ism::TrainingImage other = mirrored(image);
+    CHECK(other.frame.gray == ism::GrayImage(4, 2, {3, 2, 1, 0, 7, 6, 5, 4}));
+    CHECK(other.frame.depth_m == ism::DepthMap(4, 2, {2, 2, 1, 1, 4, 4, 3, 3}));
+    CHECK(other.frame.camera->cx == 2);
+    CHECK(other.objects[0].box == ism::Box{2, 1, 2, 1});
+    CHECK(other.objects[0].mask == ism::Mask(4, 2, {0, 0, 0, 0, 0, 0, 1, 1}));
+    CHECK(other.objects[1].box == ism::Box{0, 0, 1, 2});
+    CHECK(other.objects[1].mask.empty());
+    const ism::TrainingImage again = mirrored(other);
+    CHECK(again.frame.gray == image.frame.gray);
+    CHECK(again.frame.camera->cx == image.frame.camera->cx);
+    CHECK(again.objects[0].box == image.objects[0].box);
+}

@@ -163,6 +163,16 @@ requires requires(const I& image) {
     return gray;
 }
 
+/// @brief An image with left and right exchanged.
+template <Pixel T>
+[[nodiscard]] Image<T> mirrored(Image<T> image) {
+    for (int y = 0; y < image.height(); ++y) {
+        const auto row = image.row(y);
+        std::reverse(row.begin(), row.end());
+    }
+    return image;
+}
+
 /// @brief The value between pixels by bilinear interpolation; outside the image its edge goes on.
 [[nodiscard]] inline float sample_bilinear(ImageView<const float> image, float x, float y) {
     const float cx = std::clamp(x, 0.0f, static_cast<float>(image.width() - 1));

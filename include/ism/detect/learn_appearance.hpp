@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <mutex>
 #include <span>
@@ -28,11 +29,12 @@ struct AppearanceSample {
     std::uint32_t taken_for = 0;       ///< class of the hypothesis; of a labelled box as `shows`
 };
 
-/// @brief How judges are fitted.
+/// @brief How judges are learnt.
 struct AppearanceOptions {
     double regularisation = 3e-4;    ///< of the squared weights
     int iterations = 200;            ///< steps of gradient descent
     std::size_t max_samples = 5000;  ///< hypotheses of all images together, at least 3 an image
+    bool mirror = true;              ///< as many again from the images as a mirror shows them
     double same_iou = 0.5;           ///< a hypothesis that overlaps an object so far shows it
     double other_iou = 0.3;          ///< one that overlaps all less is background; between is left out
 };
@@ -99,6 +101,39 @@ namespace detail {
     return shapes;
 }
 
+/// The labelled boxes of a training image, and what is found in it by shapes that have not seen its objects.
+template <Detector D, Descriptor Desc>
+[[nodiscard]] std::vector<AppearanceSample> appearance_samples(const Model<D, Desc>& model,
+                                                               const Shapes& unseen,
+                                                               const TrainingImage& image,
+                                                               const AppearanceOptions& options,
+                                                               const DetectOptions<Jism>& search) {
+    const auto found = extract(image.frame.gray, model.extractor, 1);
+    const auto matches = match(model.codebook, found.descriptors, 1);
+    const auto holds = [&](const Box& box) {
+        return word_histogram(found.features, matches, model.codebook.size(), box);
+    };
+    std::vector<AppearanceSample> samples;
+    for (const LabelledObject& object : image.objects) {
+        const auto shows = static_cast<std::uint32_t>(object.class_index);
+        samples.push_back({.box = holds(object.box), .shows = shows, .taken_for = shows});
+    }
+    for (const Detection& guess : vote_for<Jism>(found.features, matches, unseen, image.frame, search)) {
+        double overlap = 0;
+        std::uint32_t shows = AppearanceSample::background;
+        for (const LabelledObject& object : image.objects)
+            if (const double shared = iou(guess.box, object.box); shared > overlap) {
+                overlap = shared;
+                shows = static_cast<std::uint32_t>(object.class_index);
+            }
+        if (overlap >= options.other_iou && overlap < options.same_iou) continue;
+        samples.push_back({.box = holds(guess.box),
+                           .shows = overlap >= options.same_iou ? shows : AppearanceSample::background,
+                           .taken_for = static_cast<std::uint32_t>(guess.class_index)});
+    }
+    return samples;
+}
+
 }  // namespace detail
 
 /// @brief Learns what boxes of each class hold: from the labelled boxes, and from what the model finds in
@@ -110,37 +145,20 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
                                           std::span<const std::uint32_t> first_object, const Source& source,
                                           const AppearanceOptions& options = {}, unsigned threads = 0,
                                           const Progress& progress = {}) {
-    using Space = VoteSpace<X, Y, Scale, Class>;
-    const std::size_t images = first_object.size() - 1, words = model.codebook.size();
-    DetectOptions<Space> search{.max_hypotheses = std::max<std::size_t>(3, options.max_samples / images),
-                                .threads = 1};
+    const std::size_t images = first_object.size() - 1;
+    const DetectOptions<Jism> search{.max_hypotheses = std::max<std::size_t>(3, options.max_samples / images),
+                                     .threads = 1};
     std::mutex mutex;
     std::size_t done = 0;
     std::vector<std::vector<AppearanceSample>> parts(images);
     parallel_for(images, threads, [&](std::size_t i) {
-        const TrainingImage image = source(i);
-        const auto found = extract(image.frame.gray, model.extractor, 1);
-        const auto matches = match(model.codebook, found.descriptors, 1);
-        const auto holds = [&](const Box& box) {
-            return word_histogram(found.features, matches, words, box);
-        };
-        for (const LabelledObject& object : image.objects) {
-            const auto shows = static_cast<std::uint32_t>(object.class_index);
-            parts[i].push_back({.box = holds(object.box), .shows = shows, .taken_for = shows});
-        }
-        Shapes unseen = detail::without_objects(model.shapes, first_object[i], first_object[i + 1]);
-        for (const Detection& guess : vote_for<Space>(found.features, matches, unseen, image.frame, search)) {
-            double overlap = 0;
-            std::uint32_t shows = AppearanceSample::background;
-            for (const LabelledObject& object : image.objects)
-                if (const double shared = iou(guess.box, object.box); shared > overlap) {
-                    overlap = shared;
-                    shows = static_cast<std::uint32_t>(object.class_index);
-                }
-            if (overlap >= options.other_iou && overlap < options.same_iou) continue;
-            parts[i].push_back({.box = holds(guess.box),
-                                .shows = overlap >= options.same_iou ? shows : AppearanceSample::background,
-                                .taken_for = static_cast<std::uint32_t>(guess.class_index)});
+        TrainingImage image = source(i);
+        const Shapes unseen = detail::without_objects(model.shapes, first_object[i], first_object[i + 1]);
+        parts[i] = detail::appearance_samples(model, unseen, image, options, search);
+        if (options.mirror) {
+            auto more =
+                detail::appearance_samples(model, unseen, mirrored(std::move(image)), options, search);
+            std::move(more.begin(), more.end(), std::back_inserter(parts[i]));
         }
         if (progress) {
             const std::lock_guard lock(mutex);
@@ -149,7 +167,7 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
     });
     std::vector<AppearanceSample> samples;
     for (auto& part : parts) std::move(part.begin(), part.end(), std::back_inserter(samples));
-    return fit_appearance(samples, words, model.shapes.class_names.size(), options, threads);
+    return fit_appearance(samples, model.codebook.size(), model.shapes.class_names.size(), options, threads);
 }
 
 }  // namespace ism

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ism/core/frame.hpp"
@@ -24,5 +25,18 @@ struct TrainingImage {
     std::vector<LabelledObject> objects = {};
     std::string name = {};  ///< for messages; a file name, say
 };
+
+/// @brief An image with its labels as a mirror shows it: left and right exchanged.
+[[nodiscard]] inline TrainingImage mirrored(TrainingImage image) {
+    const int width = image.frame.gray.width();
+    image.frame.gray = mirrored(std::move(image.frame.gray));
+    image.frame.depth_m = mirrored(std::move(image.frame.depth_m));
+    if (image.frame.camera) image.frame.camera->cx = width - 1 - image.frame.camera->cx;
+    for (LabelledObject& object : image.objects) {
+        object.box.x = width - object.box.x - object.box.width;
+        object.mask = mirrored(std::move(object.mask));
+    }
+    return image;
+}
 
 }  // namespace ism
