@@ -60,6 +60,19 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
     app.add_option("--min-information-gain", command.options.min_information_gain,
                    "least information of a word about the class")
         ->capture_default_str();
+    app.add_option("--max-words", command.options.max_words, "keep so many of the best words; 0 = all")
+        ->capture_default_str();
+    app.add_option_function<std::string>(
+           "--best-words",
+           [&command](const std::string& measure) {
+               command.options.measure = measure == "occurrences" ? ism::WordMeasure::occurrences
+                                         : measure == "gain"      ? ism::WordMeasure::information_gain
+                                                                  : ism::WordMeasure::vote_agreement;
+           },
+           "what --max-words goes by: how often a word is seen, its information gain, or how well its votes "
+           "agree")
+        ->check(CLI::IsMember({"occurrences", "gain", "agreement"}))
+        ->default_str("agreement");
     app.add_option("--seed", command.options.seed, "of random choices")->capture_default_str();
     add_threads(app, command.options.threads);
     add_skip_bad(app, command.skip_bad);

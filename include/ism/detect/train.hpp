@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "ism/codebook/information_gain.hpp"
 #include "ism/core/random.hpp"
 #include "ism/detect/harvest.hpp"
 #include "ism/detect/learn_appearance.hpp"
 #include "ism/detect/model.hpp"
+#include "ism/detect/select_words.hpp"
 
 namespace ism {
 
@@ -30,6 +30,8 @@ struct TrainOptions {
     double min_similarity = 0.82;      ///< clustering and matching cut-off; 1 = equal, 0 = unrelated
     std::size_t min_cluster_size = 2;  ///< smaller clusters make no word (T_Q + 1)
     double min_information_gain = 0;   ///< words that tell less about the class are dropped (T_IG)
+    std::size_t max_words = 0;         ///< of more words the best by `measure` stay; 0 = all
+    WordMeasure measure = WordMeasure::vote_agreement;
     CodebookKind codebook = CodebookKind::joint;
     std::size_t max_features = 40000;  ///< see HarvestOptions
     std::size_t max_cluster_features =
@@ -89,6 +91,27 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
     return codebook;
 }
 
+/// What each word was seen as: every match is an occurrence, with the weight of the match.
+template <Detector D, Descriptor Desc>
+[[nodiscard]] Shapes shapes_of(const Harvest<D, Desc>& harvest, std::vector<Match> matches,
+                               std::size_t words) {
+    std::stable_sort(matches.begin(), matches.end(),
+                     [](const Match& a, const Match& b) { return a.word < b.word; });
+    Shapes shapes{.class_names = harvest.class_names,
+                  .objects = harvest.objects,
+                  .occurrences = {},
+                  .first = std::vector<std::uint32_t>(words + 1, 0),
+                  .appearance = {}};
+    shapes.occurrences.reserve(matches.size());
+    for (const Match& m : matches) {
+        shapes.occurrences.push_back(harvest.seen[m.feature]);
+        shapes.occurrences.back().weight = m.weight;
+        ++shapes.first[m.word + 1];
+    }
+    for (std::size_t w = 0; w < words; ++w) shapes.first[w + 1] += shapes.first[w];
+    return shapes;
+}
+
 /// Gives each occurrence its weight p(occurrence | word): every class counts alike however many features it
 /// was trained with, and those of a word add up to 1.
 inline void weigh_occurrences(Shapes& shapes) {
@@ -126,41 +149,19 @@ template <Detector D, Descriptor Desc>
         std::erase_if(matches,
                       [&](const Match& m) { return words.group[m.word] != seen[m.feature].class_index; });
 
-    // Keep the words that tell enough about the class.
-    std::vector<double> counts(words.size() * classes, 0);
-    for (const Match& m : matches) counts[m.word * classes + seen[m.feature].class_index] += 1;
-    const std::vector<double> gain = information_gain(counts, classes);
-    expect(*std::max_element(gain.begin(), gain.end()) >= options.min_information_gain,
-           "training: least information gain",
-           join_text("at most that of the best word, ", *std::max_element(gain.begin(), gain.end())),
-           options.min_information_gain);
-    Model<D, Desc> model{.extractor = harvest.extractor, .codebook = {}, .shapes = {}};
-    model.codebook.max_sq_distance = max_sq_distance;
-    std::vector<std::uint32_t> renamed(words.size());
-    for (std::uint32_t w = 0; w < words.size(); ++w) {
-        renamed[w] = static_cast<std::uint32_t>(model.codebook.size());
-        if (gain[w] < options.min_information_gain) continue;
-        model.codebook.words.push_back(words.words.row(w));
-        model.codebook.mean_sq_length.push_back(words.mean_sq_length[w]);
-        model.codebook.group.push_back(words.group[w]);
+    Model<D, Desc> model{.extractor = harvest.extractor,
+                         .codebook = words,
+                         .shapes = detail::shapes_of(harvest, std::move(matches), words.size())};
+    if (options.min_information_gain > 0) {
+        const auto gain = word_worth(model.shapes, WordMeasure::information_gain);
+        const double best = *std::max_element(gain.begin(), gain.end());
+        expect(best >= options.min_information_gain, "training: least information gain",
+               join_text("at most that of the best word, ", best), options.min_information_gain);
+        model = keep_words(model, words_worth(gain, options.min_information_gain));
     }
-    std::erase_if(matches, [&](const Match& m) { return gain[m.word] < options.min_information_gain; });
-
-    model.shapes = {.class_names = harvest.class_names,
-                    .objects = harvest.objects,
-                    .occurrences = {},
-                    .first = {},
-                    .appearance = {}};
-    std::stable_sort(matches.begin(), matches.end(),
-                     [](const Match& a, const Match& b) { return a.word < b.word; });
-    model.shapes.first.assign(model.codebook.size() + 1, 0);
-    for (const Match& m : matches) {
-        model.shapes.occurrences.push_back(seen[m.feature]);
-        model.shapes.occurrences.back().weight = m.weight;
-        ++model.shapes.first[renamed[m.word] + 1];
-    }
-    for (std::size_t w = 0; w < model.codebook.size(); ++w)
-        model.shapes.first[w + 1] += model.shapes.first[w];
+    if (options.max_words > 0)
+        model = keep_words(
+            model, best_words(word_worth(model.shapes, options.measure, options.threads), options.max_words));
     detail::weigh_occurrences(model.shapes);
     return model;
 }

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include "ism/detect/select_words.hpp"
+
+#include <vector>
+
+#include "support/catch.hpp"
+
+#include "ism/feature/gray_patch.hpp"
+#include "ism/feature/hessian_laplace.hpp"
+
+namespace {
+
+using Approx = Catch::Detail::Approx;
+using Model = ism::Model<ism::HessianLaplace, ism::GrayPatch>;
+
+ism::Occurrence seen(std::uint32_t object, std::uint32_t class_index, float x, float scale = 1) {
+    ism::Occurrence o;
+    o.object = object, o.class_index = class_index, o.x = x, o.scale = scale;
+    return o;
+}
+
+/// Two classes of two objects each. Word 0 is of class 0 and always at one place, word 1 of class 0 and
+/// anywhere, word 2 of both classes at one place, word 3 on a single object.
+ism::Shapes four_words() {
+    ism::Shapes shapes;
+    shapes.class_names = {"a", "b"};
+    for (const std::uint32_t c : {0u, 0u, 1u, 1u}) {
+        ism::TrainingObject object;
+        object.class_index = c;
+        shapes.objects.push_back(object);
+    }
+    shapes.occurrences = {seen(0, 0, 20),  seen(1, 0, 20),                                //
+                          seen(0, 0, -90), seen(1, 0, 90),                                //
+                          seen(0, 0, 5),   seen(1, 0, 5),  seen(2, 1, 5), seen(3, 1, 5),  //
+                          seen(2, 1, 0),   seen(2, 1, 0)};
+    shapes.first = {0, 2, 4, 8, 10};
+    return shapes;
+}
+
+Model model_of(const ism::Shapes& shapes) {
+    Model model;
+    model.shapes = shapes;
+    for (std::size_t w = 0; w + 1 < shapes.first.size(); ++w) {
+        std::array<float, ism::GrayPatch::dimension> row{};
+        row[0] = float(w);
+        model.codebook.words.push_back(row);
+        model.codebook.mean_sq_length.push_back(float(w * w));
+        model.codebook.group.push_back(0);
+    }
+    model.codebook.max_sq_distance = 3;
+    return model;
+}
+
+}  // namespace
+
+TEST_CASE("the share of right votes follows from place, scale and class by hand") {
+    const std::vector<double> alike = {1, 1};
+    const auto share = [&](const std::vector<ism::Occurrence>& word, const ism::Occurrence& feature) {
+        return ism::right_vote_share(word, feature, alike);
+    };
+    CHECK(share({seen(0, 0, 20), seen(1, 0, 20)}, seen(0, 0, 20)) == Approx(1));
+    CHECK(share({seen(0, 0, 20)}, seen(0, 0, 20)) == 0);  // only the own object
+    // half a bandwidth beside: 1 - 1/4
+    CHECK(share({seen(1, 0, 0)}, seen(0, 0, float(ism::X::bandwidth / 2))) == Approx(0.75));
+    // 1.2 times the scale: the vote is for 24 - 20 * 1.2 = 0, of scale 1.2
+    const double u = 0.2 / ism::Scale::bandwidth;
+    CHECK(share({seen(1, 0, 20)}, seen(0, 0, 24, 1.2f)) == Approx(1 - u * u));
+    // one of two votes is for another class; the class with more occurrences counts less
+    const std::vector<ism::Occurrence> both = {seen(1, 0, 5), seen(2, 1, 5)};
+    CHECK(share(both, seen(0, 0, 5)) == Approx(0.5));
+    CHECK(ism::right_vote_share(both, seen(0, 0, 5), std::vector<double>{3, 1}) == Approx(0.25));
+}
+
+TEST_CASE("words whose votes agree are worth most; gain and number do not see the place") {
+    const ism::Shapes shapes = four_words();
+    const auto agreement = ism::word_worth(shapes, ism::WordMeasure::vote_agreement);
+    REQUIRE(agreement.size() == 4);
+    // class 0 has 6 occurrences, class 1 has 4
+    CHECK(agreement[0] == Approx(2.0 / 6));
+    CHECK(agreement[1] == 0);
+    // a feature of class 0 has one other vote of 1/6 for its class and two of 1/4 against
+    const double right_a = (1.0 / 6) / (1.0 / 6 + 2.0 / 4), right_b = (1.0 / 4) / (1.0 / 4 + 2.0 / 6);
+    CHECK(agreement[2] == Approx(2.0 / 6 * right_a + 2.0 / 4 * right_b));
+    CHECK(agreement[3] == 0);
+
+    CHECK(ism::word_worth(shapes, ism::WordMeasure::occurrences) == std::vector<double>{2, 2, 4, 2});
+    const auto gain = ism::word_worth(shapes, ism::WordMeasure::information_gain);
+    CHECK(gain[0] == Approx(gain[1]));
+    CHECK(gain[2] < gain[0]);
+    CHECK(ism::vote_agreement(shapes, 1) == ism::vote_agreement(shapes, 2));
+}
+
+TEST_CASE("of large words an even part is asked") {
+    ism::Shapes shapes;
+    shapes.class_names = {"a"};
+    for (std::uint32_t i = 0; i < 1000; ++i) shapes.occurrences.push_back(seen(i, 0, 7));
+    shapes.first = {0, 1000};
+    CHECK(ism::vote_agreement(shapes, 1, 10)[0] == Approx(ism::vote_agreement(shapes, 1, 1000)[0]));
+    CHECK(ism::vote_agreement({}).empty());
+}
+
+TEST_CASE("the best words are the most worth, of equal ones the first, in rising order") {
+    const std::vector<double> worth = {1, 5, 3, 5, 3};
+    CHECK(ism::best_words(worth, 3) == std::vector<std::uint32_t>{1, 2, 3});
+    CHECK(ism::best_words(worth, 9).size() == 5);
+    CHECK(ism::words_worth(worth, 3) == std::vector<std::uint32_t>{1, 2, 3, 4});
+}
+
+TEST_CASE("a model keeps the chosen words with their occurrences") {
+    const Model model = model_of(four_words());
+    const std::vector<std::uint32_t> chosen = {0, 2};
+    const Model kept = ism::keep_words(model, chosen);
+    CHECK(kept.codebook.size() == 2);
+    CHECK(kept.codebook.words.row(1)[0] == 2);
+    CHECK(kept.codebook.mean_sq_length == std::vector<float>{0, 4});
+    CHECK(kept.codebook.max_sq_distance == 3);
+    CHECK(kept.shapes.first == std::vector<std::uint32_t>{0, 2, 6});
+    CHECK(kept.shapes.of_word(1)[3].object == 3);
+    CHECK(kept.shapes.objects.size() == 4);
+    CHECK_THROWS_AS(ism::keep_words(model, std::span<const std::uint32_t>()), ism::Error);
+    Model judged = model;
+    judged.shapes.appearance.bias = {0, 0};
+    CHECK_THROWS_AS(ism::keep_words(judged, chosen), ism::Error);
+}
