@@ -91,7 +91,7 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
     return codebook;
 }
 
-/// What each word was seen as: every match is an occurrence, with the weight of the match.
+/// What each word was seen as: every match is an occurrence.
 template <Detector D, Descriptor Desc>
 [[nodiscard]] Shapes shapes_of(const Harvest<D, Desc>& harvest, std::vector<Match> matches,
                                std::size_t words) {
@@ -105,24 +105,29 @@ template <Detector D, Descriptor Desc>
     shapes.occurrences.reserve(matches.size());
     for (const Match& m : matches) {
         shapes.occurrences.push_back(harvest.seen[m.feature]);
-        shapes.occurrences.back().weight = m.weight;
         ++shapes.first[m.word + 1];
     }
     for (std::size_t w = 0; w < words; ++w) shapes.first[w + 1] += shapes.first[w];
     return shapes;
 }
 
-/// Gives each occurrence its weight p(occurrence | word): every class counts alike however many features it
-/// was trained with, and those of a word add up to 1.
+/// Gives each occurrence its weight p(occurrence | word): a feature shares one vote among its words, every
+/// class counts alike however many features it was trained with, and those of a word add up to 1.
 inline void weigh_occurrences(Shapes& shapes) {
-    std::vector<double> of_class(shapes.class_names.size(), 0);
-    for (const Occurrence& o : shapes.occurrences) of_class[o.class_index] += o.weight;
+    std::uint32_t features = 0;
+    for (const Occurrence& o : shapes.occurrences) features = std::max(features, o.feature + 1);
+    std::vector<double> words_of(features, 0), of_class(shapes.class_names.size(), 0);
+    for (const Occurrence& o : shapes.occurrences) words_of[o.feature] += 1;
+    for (const Occurrence& o : shapes.occurrences) of_class[o.class_index] += 1 / words_of[o.feature];
+    const auto base = [&](const Occurrence& o) {
+        return 1 / (words_of[o.feature] * of_class[o.class_index]);
+    };
     for (std::size_t w = 0; w + 1 < shapes.first.size(); ++w) {
         const auto own =
             std::span(shapes.occurrences).subspan(shapes.first[w], shapes.first[w + 1] - shapes.first[w]);
         double sum = 0;
-        for (const Occurrence& o : own) sum += o.weight / of_class[o.class_index];
-        for (Occurrence& o : own) o.weight = static_cast<float>(o.weight / of_class[o.class_index] / sum);
+        for (const Occurrence& o : own) sum += base(o);
+        for (Occurrence& o : own) o.weight = static_cast<float>(base(o) / sum);
     }
 }
 
