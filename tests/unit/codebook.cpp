@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -112,51 +111,6 @@ TEST_CASE("a codebook holds the means of the clusters that are large enough") {
     CHECK(ism::build_codebook(descriptors, 2.0, 1).size() == 3);
     CHECK_THROWS_WITH(ism::build_codebook(descriptors, 2.0, 3),
                       Catch::Contains("at least 3 features") && Catch::Contains("at most 2"));
-}
-
-TEST_CASE("matching finds all words within the threshold, or the nearest of each group") {
-    ism::Random random(3);
-    ism::Codebook<7> codebook;
-    codebook.max_sq_distance = 6;
-    ism::Descriptors<float, 7> words(700), descriptors(150);
-    for (float& v : words.values()) v = float(random.normal());
-    for (float& v : descriptors.values()) v = float(random.normal());
-    codebook.words = words;
-    std::vector<double> variance;  // words that stand for descriptors a little around them
-    for (std::size_t w = 0; w < words.size(); ++w) {
-        codebook.group.push_back(std::uint32_t(w % 3));
-        double sq_length = 0;
-        for (const float v : words.row(w)) sq_length += double(v) * v;
-        variance.push_back(random.uniform(0, 0.5));
-        codebook.mean_sq_length.push_back(float(sq_length + variance.back()));
-    }
-
-    std::vector<ism::Match> all, nearest;
-    for (std::uint32_t i = 0; i < descriptors.size(); ++i) {
-        std::map<std::uint32_t, std::vector<std::pair<double, std::uint32_t>>> hits;
-        for (std::uint32_t w = 0; w < words.size(); ++w) {
-            double sq_distance = variance[w];
-            for (std::size_t k = 0; k < 7; ++k) {
-                const double d = double(words.row(w)[k]) - double(descriptors.row(i)[k]);
-                sq_distance += d * d;
-            }
-            if (sq_distance <= 6) hits[w % 3].emplace_back(sq_distance, w);
-        }
-        for (std::uint32_t w = 0; w < words.size(); ++w)
-            for (const auto& [d, hit] : hits[w % 3])
-                if (hit == w)
-                    all.push_back({i, w, 1.0f / float(hits[w % 3].size()),
-                                   w == std::min_element(hits[w % 3].begin(), hits[w % 3].end())->second});
-        std::vector<std::uint32_t> best;
-        for (const auto& [group, list] : hits)
-            if (!list.empty()) best.push_back(std::min_element(list.begin(), list.end())->second);
-        std::sort(best.begin(), best.end());
-        for (const std::uint32_t w : best) nearest.push_back({i, w, 1.0f, true});
-    }
-    REQUIRE(all.size() > 1000);
-    CHECK(ism::match(codebook, descriptors, 1) == all);
-    CHECK(ism::match(codebook, descriptors, 2) == all);
-    CHECK(ism::nearest_only(all) == nearest);
 }
 
 TEST_CASE("information gain follows Eq 3 computed by hand") {

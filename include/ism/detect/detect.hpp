@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/codebook/match.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/parallel.hpp"
 #include "ism/detect/detection.hpp"

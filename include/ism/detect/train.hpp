@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/codebook/match.hpp"
 #include "ism/core/random.hpp"
 #include "ism/detect/harvest.hpp"
 #include "ism/detect/learn_appearance.hpp"

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "ism/core/processor.hpp"
+
+namespace ism::detail {
+
+/// Eight sums side by side, added up in one order. A product of two floats is exact in double, so that a
+/// fused multiply-add rounds like two steps: the same bits on every processor.
+ISM_INLINE double dot_body(const float* a, const float* b, std::size_t size) {
+    constexpr std::size_t lanes = 8;
+    double sum[lanes] = {};
+    std::size_t k = 0;
+    for (; k + lanes <= size; k += lanes)
+        for (std::size_t l = 0; l < lanes; ++l) sum[l] += double(a[k + l]) * double(b[k + l]);
+    for (std::size_t l = 0; k + l < size; ++l) sum[l] += double(a[k + l]) * double(b[k + l]);
+    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+}
+
+using Dot = double(const float*, const float*, std::size_t);
+
+inline double dot_any(const float* a, const float* b, std::size_t size) {
+    return dot_body(a, b, size);
+}
+
+#if ISM_X86_UNITS
+ISM_TARGET("avx2,fma") inline double dot_avx2(const float* a, const float* b, std::size_t size) {
+    return dot_body(a, b, size);
+}
+#endif
+
+/// The dot product of two rows in double, its bits the same for every unit.
+[[nodiscard]] inline Dot* exact_dot([[maybe_unused]] VectorUnit unit) {
+#if ISM_X86_UNITS
+    if (unit != VectorUnit::any) return dot_avx2;
+#endif
+    return dot_any;
+}
+
+}  // namespace ism::detail

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "ism/codebook/filter.hpp"
+#include "ism/core/processor.hpp"
+
+namespace ism::detail {
+
+/// One group of words against queries: bit j of masks[i] is set unless query i · word j + bias[j] ≤
+/// limits[i]. Words are in panels of 16, number after number.
+struct FloatTask {
+    const float* queries;
+    std::size_t count, dimension;
+    const float* limits;
+    const float* panels;
+    const float* bias;
+    std::uint64_t* masks;
+};
+
+/// `Lanes` is a vector of floats; `Rows` queries and 16 words at a time stay in registers.
+template <class Lanes, std::size_t Rows>
+ISM_INLINE void filter_floats_body(const FloatTask& task) {
+    constexpr std::size_t words = 16, lanes = sizeof(Lanes) / sizeof(float), parts = words / lanes;
+    static_assert(filter_tile % Rows == 0);
+    std::fill_n(task.masks, task.count, std::uint64_t(0));
+    for (std::size_t first = 0; first < filter_group; first += words)
+        for (std::size_t i = 0; i < task.count; i += Rows) {
+            const float* query = task.queries + i * task.dimension;
+            const float* panel = task.panels + first * task.dimension;
+            Lanes sum[Rows][parts], word[parts];
+            for (std::size_t r = 0; r < Rows; ++r) std::memcpy(&sum[r], task.bias + first, sizeof(sum[r]));
+            for (std::size_t k = 0; k < task.dimension; ++k) {
+                std::memcpy(&word, panel + k * words, sizeof(word));
+#pragma GCC unroll 8
+                for (std::size_t r = 0; r < Rows; ++r)
+#pragma GCC unroll 8
+                    for (std::size_t p = 0; p < parts; ++p)
+                        sum[r][p] += query[r * task.dimension + k] * word[p];
+            }
+            for (std::size_t r = 0; r < Rows; ++r) {
+                float sums[words];
+                std::memcpy(sums, &sum[r], sizeof(sums));
+                const float limit = task.limits[i + r];
+                int any = 0;
+                for (std::size_t j = 0; j < words; ++j) any |= !(sums[j] <= limit);  // NaN may be anything
+                if (any == 0) continue;
+                for (std::size_t j = 0; j < words; ++j)
+                    task.masks[i + r] |= std::uint64_t(!(sums[j] <= limit)) << (first + j);
+            }
+        }
+}
+
+using FilterFloats = void(const FloatTask&);
+
+#if defined(__GNUC__)
+using FourFloats [[gnu::vector_size(16)]] = float;
+using EightFloats [[gnu::vector_size(32)]] = float;
+inline void filter_floats_any(const FloatTask& task) {
+    filter_floats_body<FourFloats, 3>(task);
+}
+#else
+inline void filter_floats_any(const FloatTask& task) {
+    filter_floats_body<float, 1>(task);
+}
+#endif
+
+#if ISM_X86_UNITS
+ISM_TARGET("avx2,fma")
+inline void filter_floats_avx2(const FloatTask& task) {
+    filter_floats_body<EightFloats, 6>(task);
+}
+#endif
+
+/// The kernel of a unit.
+[[nodiscard]] inline FilterFloats* float_kernel([[maybe_unused]] VectorUnit unit) {
+#if ISM_X86_UNITS
+    if (unit != VectorUnit::any) return filter_floats_avx2;
+#endif
+    return filter_floats_any;
+}
+
+}  // namespace ism::detail

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "ism/codebook/byte_filter.hpp"
+#include "ism/codebook/codebook.hpp"
+#include "ism/codebook/exact_dot.hpp"
+#include "ism/codebook/float_filter.hpp"
+#include "ism/core/error.hpp"
+
+namespace ism {
+
+/// @brief The words of a codebook made ready for match(): for a codebook that is asked many times. It keeps
+/// what it needs of the codebook, which may go. May be asked from several threads at once.
+template <std::size_t Dimension>
+class WordIndex {
+public:
+    /// @param unit  for tests and measurements: matches are the same bits for each, only the time differs
+    /// @throws Error for words or lengths that are not finite, lists of different lengths, a threshold that
+    /// is negative or NaN, or a unit that the processor lacks.
+    explicit WordIndex(const Codebook<Dimension>& codebook, VectorUnit unit = best_unit());
+
+    /// @brief Number of words.
+    [[nodiscard]] std::size_t size() const { return mean_sq_length_.size(); }
+    [[nodiscard]] double max_sq_distance() const { return max_sq_distance_; }
+    /// @brief Number of groups that have words.
+    [[nodiscard]] std::size_t groups() const { return groups_; }
+    /// @brief Number of the group of a word among those that have words.
+    [[nodiscard]] std::uint32_t group(std::size_t word) const { return group_[word]; }
+
+    /// @brief Squared length of a row, in double.
+    [[nodiscard]] double sq_length(const float* row) const { return dot_(row, row, Dimension); }
+    /// @brief The distance of a row to a word: see Codebook. The same bits on every processor.
+    [[nodiscard]] double sq_distance(const float* row, double sq_length, std::size_t word) const {
+        return sq_length + double(mean_sq_length_[word]) -
+               2 * dot_(row, words_.data() + word * Dimension, Dimension);
+    }
+
+    /// @brief What tells candidates: detail::ByteFilter or detail::FloatFilter.
+    [[nodiscard]] const auto& filter() const { return filter_; }
+
+private:
+    std::vector<float> words_;
+    std::vector<float> mean_sq_length_;
+    std::vector<std::uint32_t> group_;
+    std::size_t groups_ = 0;
+    double max_sq_distance_ = 0;
+    detail::Dot* dot_;
+    std::variant<detail::FloatFilter, detail::ByteFilter> filter_;
+};
+
+template <std::size_t Dimension>
+WordIndex<Dimension>::WordIndex(const Codebook<Dimension>& codebook, VectorUnit unit)
+    : words_(codebook.words.values().begin(), codebook.words.values().end()),
+      mean_sq_length_(codebook.mean_sq_length),
+      group_(codebook.group),
+      max_sq_distance_(codebook.max_sq_distance),
+      dot_(detail::exact_dot(unit)) {
+    expect(has_unit(unit), "matching: vector unit", "one that the processor has", int(unit));
+    expect(codebook.mean_sq_length.size() == codebook.size() && codebook.group.size() == codebook.size(),
+           "matching: mean square lengths and groups of words", codebook.size(),
+           join_text(codebook.mean_sq_length.size(), ", ", codebook.group.size()));
+    expect(max_sq_distance_ >= 0, "matching: largest squared distance", "0 or more", max_sq_distance_);
+    for (const std::vector<float>* values : {&words_, &mean_sq_length_})
+        for (const float value : *values)
+            expect(std::isfinite(value), "matching: words", "finite numbers", value);
+    std::vector<std::uint32_t> used = group_;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    groups_ = used.size();
+    for (std::uint32_t& group : group_)
+        group = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), group) - used.begin());
+
+    // Bytes are faster where their rounding is small beside the threshold.
+    detail::ByteFilter bytes(words_, mean_sq_length_, Dimension, unit);
+    if (bytes.slack() < max_sq_distance_ / 4)
+        filter_ = std::move(bytes);
+    else
+        filter_ = detail::FloatFilter(words_, mean_sq_length_, Dimension, unit);
+}
+
+}  // namespace ism
