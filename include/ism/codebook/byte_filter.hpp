@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <vector>
@@ -33,11 +34,10 @@ public:
         double error = 0, length = 0;      // the largest |e| and |d' − c|
     };
 
-    ByteFilter() = default;
     ByteFilter(std::span<const float> words, std::span<const float> mean_sq_length, std::size_t dimension,
                VectorUnit unit);
 
-    /// How far the bounds lie from the distances, as a squared distance; infinite where bytes cannot do.
+    /// How far the bounds may lie from the squared distances, about; infinite where bytes cannot do.
     [[nodiscard]] double slack() const { return slack_; }
 
     /// Makes a block of queries ready. @param rows filter_block rows
@@ -46,15 +46,13 @@ public:
 
     /// Sets how far query i reaches. One of infinite squared length reaches nothing.
     void limit(Block& block, std::size_t i, double sq_length, double max_sq_distance) const {
-        constexpr double most = 0x1p30;
-        const double products = 256.0 * 128.0 * double(padded_);  // no sum of products is larger
+        const double most = 0x1p30, products = 0x1p15 * double(padded_);  // no sum of products is larger
         const double bound = (sq_length - max_sq_distance) / 2 - block.rest[i];
         const double exceeds = std::floor(bound / block.unit) - 2;  // 1 each for it and the bias
         if (!(sq_length < std::numeric_limits<double>::infinity()))
             block.limits[i] = std::numeric_limits<std::int32_t>::max();
         else
-            block.limits[i] =
-                std::int32_t(std::max(-most - products - 1, std::min(exceeds, most - products - 1)));
+            block.limits[i] = std::int32_t(std::clamp(exceeds, -most - products - 1, most - products - 1));
     }
 
     /// Bit j of masks[i] is set where query i may reach word j of the group.
@@ -99,41 +97,37 @@ inline ByteFilter::ByteFilter(std::span<const float> words, std::span<const floa
 
     panels_.assign(room * padded_, 0);
     for (auto* values : {&known_, &sum_, &length_, &error_}) values->assign(room, 0.0f);
-    std::vector<std::uint8_t> bytes(dimension);
-    double length = 0, error = 0;
+    std::vector<std::uint8_t> bytes(padded_);
     for (std::size_t w = 0; w < count; ++w) {
         const ByteRounding lost =
-            round_row(words.data() + w * dimension, centre_.data(), dimension, scale_, bytes.data());
+            round_row(words.subspan(w * dimension, dimension), centre_.data(), scale_, bytes.data());
         std::int8_t* panel =
             panels_.data() + w / filter_group * filter_group * padded_ + w % filter_group * 4;
-        for (std::size_t k = 0; k < dimension; ++k)
-            panel[k / 4 * filter_group * 4 + k % 4] = std::int8_t(int(bytes[k]) - half);
+        for (std::size_t k = 0; k < dimension; ++k) bytes[k] = std::uint8_t(bytes[k] - half);
+        for (std::size_t quad = 0; quad < padded_ / 4; ++quad)
+            std::memcpy(panel + quad * filter_group * 4, bytes.data() + quad * 4, 4);
         known_[w] = float(lost.along - double(mean_sq_length[w]) / 2);
         sum_[w] = float(lost.sum - double(half) * double(dimension));
         length_[w] = float(lost.length + lost.error);
         error_[w] = float(lost.error);
-        length += lost.length / double(count), error += lost.error / double(count);
         largest_known_ = std::max(largest_known_, std::abs(double(known_[w])));
         largest_sum_ = std::max(largest_sum_, std::abs(double(sum_[w])));
         largest_length_ = std::max(largest_length_, double(length_[w]));
         largest_error_ = std::max(largest_error_, double(error_[w]));
     }
-    slack_ = 4 * length * error;
+    slack_ = 4 * largest_length_ * largest_error_;
 }
 
 inline void ByteFilter::prepare(std::span<const float> rows, std::span<const double> sq_lengths,
                                 double max_sq_distance, Block& block) const {
     block.rows.assign(filter_block * padded_, 0);
-    block.limits.resize(filter_block);
-    block.bias.resize(filter_group);
-    block.rest.resize(filter_block);
+    block.limits.resize(filter_block), block.rest.resize(filter_block), block.bias.resize(filter_group);
     ByteScale scale = byte_scale(rows, scale_.levels);
     scale.step = std::max(scale.step, scale_.step * 0x1p-10);
-    block.least = scale.least;
-    block.unit = scale.step * scale_.step;
+    block.least = scale.least, block.unit = scale.step * scale_.step;
     block.error = block.length = 0;
     for (std::size_t i = 0; i < filter_block; ++i) {
-        const ByteRounding lost = round_row(rows.data() + i * dimension_, centre_.data(), dimension_, scale,
+        const ByteRounding lost = round_row(rows.subspan(i * dimension_, dimension_), centre_.data(), scale,
                                             block.rows.data() + i * padded_);
         block.error = std::max(block.error, lost.error);
         block.length = std::max(block.length, lost.length);

@@ -43,54 +43,52 @@ struct ByteRounding {
     double sum = 0;     ///< of the bytes
 };
 
-/// The sums of a ByteRounding, eight of each side by side.
-struct ByteSums {
-    static constexpr std::size_t lanes = 8;
-    double sq_error[lanes] = {}, along[lanes] = {}, sq_length[lanes] = {};
-    std::int32_t sum[lanes] = {};
-
-    /// Rounds up to eight numbers. What was lost is taken from the bytes, so that rounding itself may err.
-    ISM_INLINE void add(const float* row, const double* centre, std::size_t count, const ByteScale& scale,
-                        std::uint8_t* bytes) {
-        const auto least = float(scale.least), factor = float(1 / scale.step);
-        const auto top = float(scale.levels - 1);
-        for (std::size_t l = 0; l < count; ++l) {
-            const float wanted = (row[l] - least) * factor + 0.5f;
-            const float kept = wanted > 0 ? wanted : 0;
-            const auto byte = std::int32_t(kept < top ? kept : top);
-            bytes[l] = std::uint8_t(byte);
-            const double value = scale.least + scale.step * byte, lost = double(row[l]) - value;
-            sum[l] += byte;
-            sq_error[l] += lost * lost;
-            along[l] += lost * centre[l];
-            sq_length[l] += (value - centre[l]) * (value - centre[l]);
+/// Writes a whole number of eights as bytes and adds to what was lost, squared where it is a length. It is
+/// taken from the bytes, so that rounding itself may err.
+ISM_INLINE void round_eights(const float* __restrict row, const double* __restrict centre, std::size_t size,
+                             const ByteScale& scale, std::uint8_t* __restrict bytes, ByteRounding& lost) {
+    const double origin = scale.least, step = scale.step;
+    const float least = float(origin), factor = float(1 / step), top = float(scale.levels - 1);
+    for (std::size_t k = 0; k < size; ++k) {
+        const float wanted = (row[k] - least) * factor + 0.5f;
+        const float kept = wanted > 0 ? wanted : 0;
+        bytes[k] = std::uint8_t(std::int32_t(kept < top ? kept : top));
+    }
+    constexpr std::size_t lanes = 8;  // sums side by side, which the compiler adds at once
+    double sq_error[lanes] = {}, along[lanes] = {}, sq_length[lanes] = {}, sum[lanes] = {};
+    for (std::size_t k = 0; k < size; k += lanes)
+        for (std::size_t l = 0; l < lanes; ++l) {
+            const double byte = bytes[k + l], value = origin + step * byte;
+            const double error = double(row[k + l]) - value, off = value - centre[k + l];
+            sq_error[l] += error * error, along[l] += error * centre[k + l];
+            sq_length[l] += off * off, sum[l] += byte;
         }
+    for (std::size_t l = 0; l < lanes; ++l) {
+        lost.error += sq_error[l], lost.along += along[l];
+        lost.length += sq_length[l], lost.sum += sum[l];
     }
-};
-
-ISM_INLINE ByteRounding round_row_body(const float* row, const double* centre, std::size_t size,
-                                       const ByteScale& scale, std::uint8_t* bytes) {
-    ByteSums sums;
-    std::size_t k = 0;
-    for (; k + ByteSums::lanes <= size; k += ByteSums::lanes)
-        sums.add(row + k, centre + k, ByteSums::lanes, scale, bytes + k);
-    sums.add(row + k, centre + k, size - k, scale, bytes + k);
-    ByteRounding result;
-    for (std::size_t l = 0; l < ByteSums::lanes; ++l) {
-        result.error += sums.sq_error[l], result.along += sums.along[l];
-        result.length += sums.sq_length[l], result.sum += sums.sum[l];
-    }
-    result.error = std::sqrt(result.error), result.length = std::sqrt(result.length);
-    return result;
 }
 
 /// Writes a row of numbers as bytes.
 #if ISM_X86_UNITS
 ISM_TARGET("avx2,fma")
 #endif
-inline ByteRounding round_row(const float* row, const double* centre, std::size_t size,
-                              const ByteScale& scale, std::uint8_t* bytes) {
-    return round_row_body(row, centre, size, scale, bytes);
+inline ByteRounding round_row(std::span<const float> row, const double* centre, const ByteScale& scale,
+                              std::uint8_t* bytes) {
+    ByteRounding lost;
+    const std::size_t whole = row.size() / 8 * 8, rest = row.size() - whole;
+    round_eights(row.data(), centre, whole, scale, bytes, lost);
+    if (rest > 0) {  // filled up by what a byte stands for exactly, and which is its own centre
+        float numbers[8];
+        double centres[8];
+        std::uint8_t rounded[8];
+        std::fill_n(numbers, 8, float(scale.least)), std::fill_n(centres, 8, scale.least);
+        std::copy_n(row.data() + whole, rest, numbers), std::copy_n(centre + whole, rest, centres);
+        round_eights(numbers, centres, 8, scale, rounded, lost);
+        std::copy_n(rounded, rest, bytes + whole);
+    }
+    lost.error = std::sqrt(lost.error), lost.length = std::sqrt(lost.length);
+    return lost;
 }
 
 }  // namespace ism::detail

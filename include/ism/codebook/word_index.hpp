@@ -69,9 +69,11 @@ WordIndex<Dimension>::WordIndex(const Codebook<Dimension>& codebook, VectorUnit 
            "matching: mean square lengths and groups of words", codebook.size(),
            join_text(codebook.mean_sq_length.size(), ", ", codebook.group.size()));
     expect(max_sq_distance_ >= 0, "matching: largest squared distance", "0 or more", max_sq_distance_);
-    for (const std::vector<float>* values : {&words_, &mean_sq_length_})
-        for (const float value : *values)
-            expect(std::isfinite(value), "matching: words", "finite numbers", value);
+    for (const std::vector<float>* values : {&words_, &mean_sq_length_}) {
+        const auto bad =
+            std::find_if_not(values->begin(), values->end(), [](float v) { return std::isfinite(v); });
+        expect(bad == values->end(), "matching: words", "finite numbers", bad == values->end() ? 0 : *bad);
+    }
     std::vector<std::uint32_t> used = group_;
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());

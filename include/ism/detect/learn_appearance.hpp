@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/codebook/match.hpp"
 #include "ism/core/parallel.hpp"
 #include "ism/detect/detect.hpp"
 #include "ism/detect/harvest.hpp"
@@ -103,15 +104,13 @@ namespace detail {
 
 /// The labelled boxes of a training image, and what is found in it by shapes that have not seen its objects.
 template <Detector D, Descriptor Desc>
-[[nodiscard]] std::vector<AppearanceSample> appearance_samples(const Model<D, Desc>& model,
-                                                               const Shapes& unseen,
-                                                               const TrainingImage& image,
-                                                               const AppearanceOptions& options,
-                                                               const DetectOptions<Jism>& search) {
-    const auto found = extract(image.frame.gray, model.extractor, 1);
-    const auto matches = match(model.codebook, found.descriptors, 1);
+[[nodiscard]] std::vector<AppearanceSample> appearance_samples(
+    const Extractor<D, Desc>& extractor, const WordIndex<Desc::dimension>& words, const Shapes& unseen,
+    const TrainingImage& image, const AppearanceOptions& options, const DetectOptions<Jism>& search) {
+    const auto found = extract(image.frame.gray, extractor, 1);
+    const auto matches = match(words, found.descriptors, 1);
     const auto holds = [&](const Box& box) {
-        return word_histogram(found.features, matches, model.codebook.size(), box);
+        return word_histogram(found.features, matches, words.size(), box);
     };
     std::vector<AppearanceSample> samples;
     for (const LabelledObject& object : image.objects) {
@@ -148,16 +147,17 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
     const std::size_t images = first_object.size() - 1;
     const DetectOptions<Jism> search{.max_hypotheses = std::max<std::size_t>(3, options.max_samples / images),
                                      .threads = 1};
+    const WordIndex<Desc::dimension> words(model.codebook);
     std::mutex mutex;
     std::size_t done = 0;
     std::vector<std::vector<AppearanceSample>> parts(images);
     parallel_for(images, threads, [&](std::size_t i) {
         TrainingImage image = source(i);
         const Shapes unseen = detail::without_objects(model.shapes, first_object[i], first_object[i + 1]);
-        parts[i] = detail::appearance_samples(model, unseen, image, options, search);
+        parts[i] = detail::appearance_samples(model.extractor, words, unseen, image, options, search);
         if (options.mirror) {
-            auto more =
-                detail::appearance_samples(model, unseen, mirrored(std::move(image)), options, search);
+            auto more = detail::appearance_samples(model.extractor, words, unseen, mirrored(std::move(image)),
+                                                   options, search);
             std::move(more.begin(), more.end(), std::back_inserter(parts[i]));
         }
         if (progress) {

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+
+// Time of matching 960 descriptors by number of words and by vector unit, one thread; and of making an index.
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "support/catch.hpp"
+
+#include "ism/codebook/match.hpp"
+#include "ism/core/random.hpp"
+
+namespace {
+
+/// Rows of length 1 with few large numbers, somewhat as SIFT has them (synthetic).
+ism::Descriptors<float, 128> random_rows(std::size_t count, ism::Random& random) {
+    ism::Descriptors<float, 128> rows(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        double sq_length = 0;
+        for (float& v : rows.row(i)) {
+            v = float(std::exp(1.2 * random.normal()));
+            sq_length += double(v) * v;
+        }
+        for (float& v : rows.row(i)) v = float(v / std::sqrt(sq_length));
+    }
+    return rows;
+}
+
+}  // namespace
+
+TEST_CASE("matching by number of words", "[!benchmark]") {
+    ism::Random random(1);
+    const auto descriptors = random_rows(960, random);
+    for (const std::size_t size : {1000u, 7000u, 50000u}) {
+        ism::Codebook<128> codebook;
+        codebook.words = random_rows(size, random);
+        codebook.mean_sq_length.assign(size, 1);
+        codebook.group.assign(size, 0);
+        codebook.max_sq_distance = 0.36;
+        const std::string words = ism::join_text(", ", size, " words");
+        const auto bench = [&](const std::string& name, ism::VectorUnit unit) {
+            if (!ism::has_unit(unit)) return;
+            const ism::WordIndex<128> index(codebook, unit);
+            BENCHMARK(name + words) {
+                return ism::match(index, descriptors, 1).size();
+            };
+            BENCHMARK(name + ", nearest only" + words) {
+                return ism::match(index, descriptors, 1, {.mode = ism::MatchMode::nearest}).size();
+            };
+        };
+        bench("any unit", ism::VectorUnit::any);
+        bench("AVX2", ism::VectorUnit::avx2);
+        bench("AVX-512 VNNI", ism::VectorUnit::avx512_vnni);
+        BENCHMARK("making the index" + words) {
+            return ism::WordIndex<128>(codebook).size();
+        };
+    }
+}
