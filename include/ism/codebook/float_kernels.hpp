@@ -23,8 +23,14 @@ struct FloatTask {
     std::uint64_t* masks;
 };
 
-/// `Lanes` is a vector of floats; `Rows` queries and 16 words at a time stay in registers.
-template <class Lanes, std::size_t Rows>
+/// A float, or a vector of them.
+template <class T>
+concept FloatLanes = sizeof(T) % sizeof(float) == 0 && requires(T lanes, float factor) {
+    lanes += factor * lanes;
+};
+
+/// `Rows` queries and 16 words at a time stay in registers.
+template <FloatLanes Lanes, std::size_t Rows>
 ISM_INLINE void filter_floats_body(const FloatTask& task) {
     constexpr std::size_t words = 16, lanes = sizeof(Lanes) / sizeof(float), parts = words / lanes;
     static_assert(filter_tile % Rows == 0);
@@ -33,25 +39,36 @@ ISM_INLINE void filter_floats_body(const FloatTask& task) {
         for (std::size_t i = 0; i < task.count; i += Rows) {
             const float* query = task.queries + i * task.dimension;
             const float* panel = task.panels + first * task.dimension;
+            // every loop over these is unrolled, so that they stay in registers
             Lanes sum[Rows][parts], word[parts];
-            for (std::size_t r = 0; r < Rows; ++r) std::memcpy(&sum[r], task.bias + first, sizeof(sum[r]));
+#pragma GCC unroll 8
+            for (std::size_t r = 0; r < Rows; ++r)
+#pragma GCC unroll 8
+                for (std::size_t p = 0; p < parts; ++p)
+                    std::memcpy(&sum[r][p], task.bias + first + p * lanes, sizeof(Lanes));
             for (std::size_t k = 0; k < task.dimension; ++k) {
-                std::memcpy(&word, panel + k * words, sizeof(word));
+#pragma GCC unroll 8
+                for (std::size_t p = 0; p < parts; ++p)
+                    std::memcpy(&word[p], panel + k * words + p * lanes, sizeof(Lanes));
 #pragma GCC unroll 8
                 for (std::size_t r = 0; r < Rows; ++r)
 #pragma GCC unroll 8
                     for (std::size_t p = 0; p < parts; ++p)
                         sum[r][p] += query[r * task.dimension + k] * word[p];
             }
+            float sums[Rows][words];
+#pragma GCC unroll 8
+            for (std::size_t r = 0; r < Rows; ++r)
+#pragma GCC unroll 8
+                for (std::size_t p = 0; p < parts; ++p)
+                    std::memcpy(&sums[r][p * lanes], &sum[r][p], sizeof(Lanes));
             for (std::size_t r = 0; r < Rows; ++r) {
-                float sums[words];
-                std::memcpy(sums, &sum[r], sizeof(sums));
                 const float limit = task.limits[i + r];
                 int any = 0;
-                for (std::size_t j = 0; j < words; ++j) any |= !(sums[j] <= limit);  // NaN may be anything
+                for (std::size_t j = 0; j < words; ++j) any |= !(sums[r][j] <= limit);  // NaN: any
                 if (any == 0) continue;
                 for (std::size_t j = 0; j < words; ++j)
-                    task.masks[i + r] |= std::uint64_t(!(sums[j] <= limit)) << (first + j);
+                    task.masks[i + r] |= std::uint64_t(!(sums[r][j] <= limit)) << (first + j);
             }
         }
 }
@@ -62,7 +79,7 @@ using FilterFloats = void(const FloatTask&);
 using FourFloats [[gnu::vector_size(16)]] = float;
 using EightFloats [[gnu::vector_size(32)]] = float;
 inline void filter_floats_any(const FloatTask& task) {
-    filter_floats_body<FourFloats, 3>(task);
+    filter_floats_body<FourFloats, 4>(task);
 }
 #else
 inline void filter_floats_any(const FloatTask& task) {

@@ -6,6 +6,8 @@
 /// @brief Functions for vector units that the compiler may use only in them: no flags are asked of the user,
 /// and which unit there is is looked up when the program runs.
 
+#include <initializer_list>
+
 #if defined(__x86_64__) && defined(__GNUC__)
 #define ISM_X86_UNITS 1
 #include <immintrin.h>
