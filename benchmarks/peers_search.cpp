@@ -31,7 +31,7 @@ using bench::Words;
 
 /// By the definition of the distance, in double, one pair after another.
 template <ism::DescriptorScalar Scalar>
-std::vector<Hit> exact_hits(const Words& words, const bench::Rows<Scalar>& queries) {
+std::vector<Hit> exact_hits(const bench::WordsOf<Scalar>& words, const bench::Rows<Scalar>& queries) {
     std::vector<Hit> hits;
     for (std::uint32_t i = 0; i < queries.size(); ++i)
         for (std::uint32_t w = 0; w < words.size(); ++w) {
@@ -73,10 +73,10 @@ bench::Rows<Scalar> first_rows(bench::Rows<Scalar> rows, std::size_t count) {
 
 /// Ours on queries of one kind, beside each peer on floats.
 template <ism::DescriptorScalar Scalar>
-void compare(const std::string& name, const Words& words, const bench::Rows<Scalar>& queries,
+void compare(const std::string& name, const bench::WordsOf<Scalar>& words, const bench::Rows<Scalar>& queries,
              const std::vector<bench::SearchPeer>& peers, const Words& peer_words,
              const bench::Rows<float>& peer_queries, std::size_t rounds, std::vector<bench::Row>& rows) {
-    const ism::WordIndex<bench::sift_size> index(words);
+    const ism::WordIndex<bench::sift_size, Scalar> index(words);
     const auto exact = exact_hits(words, queries), peer_exact = exact_hits(peer_words, peer_queries);
     const auto ours = ism::match(index, queries, 1);
     const bool same = hits_of(ours) == exact;
@@ -160,8 +160,7 @@ int main(int argc, char** argv) try {
         std::vector<bench::SearchPeer> peers = bench::search_peers(words, !fast_only);
         compare(name + ", float", words, queries, peers, words, queries, rounds, rows);
         std::erase_if(peers, [](const bench::SearchPeer& peer) { return peer.slow; });
-        compare(name + ", byte descriptors", bench::in_byte_units(words), bytes, peers, words, queries,
-                rounds, rows);
+        compare(name + ", bytes", bench::in_bytes(words), bytes, peers, words, queries, rounds, rows);
     }
     bench::print(rows);
     if (!json.empty()) bench::write_json(json, rows);

@@ -14,6 +14,7 @@
 #include "support/our_features.hpp"
 #include "support/photographs.hpp"
 
+#include "ism/codebook/byte_codebook.hpp"
 #include "ism/codebook/codebook.hpp"
 #include "ism/detect/train.hpp"
 #include "ism/feature/byte_sift.hpp"
@@ -21,7 +22,9 @@
 namespace bench {
 
 constexpr std::size_t sift_size = ism::Sift::dimension;
-using Words = ism::Codebook<sift_size>;
+template <ism::DescriptorScalar Scalar>
+using WordsOf = ism::Codebook<sift_size, Scalar>;
+using Words = WordsOf<float>;
 template <ism::DescriptorScalar Scalar>
 using Rows = ism::Descriptors<Scalar, sift_size>;
 
@@ -74,18 +77,18 @@ using Rows = ism::Descriptors<Scalar, sift_size>;
     return words;
 }
 
-/// @brief SIFT in bytes as ByteSift gives it, and words in its units.
+/// @brief SIFT in bytes as ByteSift gives it, and words of such.
 [[nodiscard]] inline Rows<std::uint8_t> as_bytes(const Rows<float>& descriptors) {
     Rows<std::uint8_t> bytes(descriptors.size());
     std::transform(descriptors.values().begin(), descriptors.values().end(), bytes.values().begin(),
                    [](float v) { return std::uint8_t(std::min(512 * v + 0.5f, 255.0f)); });
     return bytes;
 }
-[[nodiscard]] inline Words in_byte_units(Words words) {
-    for (float& value : words.words.values()) value *= 512;
+[[nodiscard]] inline WordsOf<std::uint8_t> in_bytes(Words words) {
+    for (float& value : words.words.values()) value = std::min(512 * value, 255.0f);
     for (float& value : words.mean_sq_length) value *= 512 * 512;
     words.max_sq_distance *= 512 * 512;
-    return words;
+    return ism::in_bytes(words);
 }
 
 }  // namespace bench

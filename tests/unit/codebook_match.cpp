@@ -12,6 +12,7 @@
 
 #include "support/catch.hpp"
 
+#include "ism/codebook/byte_codebook.hpp"
 #include "ism/codebook/match.hpp"
 #include "ism/core/random.hpp"
 
@@ -35,8 +36,8 @@ std::vector<VectorUnit> units_here() {
 }
 
 /// All matches by the definition of the distance, one pair after another.
-template <std::size_t Dimension, DescriptorScalar Scalar>
-std::vector<Match> naive_matches(const Codebook<Dimension>& codebook,
+template <std::size_t Dimension, DescriptorScalar WordScalar, DescriptorScalar Scalar>
+std::vector<Match> naive_matches(const Codebook<Dimension, WordScalar>& codebook,
                                  const Descriptors<Scalar, Dimension>& descriptors) {
     std::vector<Match> all;
     for (std::uint32_t i = 0; i < descriptors.size(); ++i) {
@@ -62,14 +63,14 @@ std::vector<Match> naive_matches(const Codebook<Dimension>& codebook,
 }
 
 /// Every unit, numbers of threads and mode against the definition.
-template <std::size_t Dimension, DescriptorScalar Scalar>
-std::size_t check_against_naive(const Codebook<Dimension>& codebook,
+template <std::size_t Dimension, DescriptorScalar WordScalar, DescriptorScalar Scalar>
+std::size_t check_against_naive(const Codebook<Dimension, WordScalar>& codebook,
                                 const Descriptors<Scalar, Dimension>& descriptors) {
     const auto all = naive_matches(codebook, descriptors);
     const auto nearest = ism::nearest_only(all);
     for (const VectorUnit unit : units_here()) {
         CAPTURE(int(unit), codebook.size(), codebook.max_sq_distance, Dimension);
-        const ism::WordIndex<Dimension> index(codebook, unit);
+        const ism::WordIndex<Dimension, WordScalar> index(codebook, unit);
         CHECK((ism::match(index, descriptors, 1) == all));
         CHECK((ism::match(index, descriptors, 2) == all));
         CHECK((ism::match(index, descriptors, 1, {.mode = MatchMode::nearest}) == nearest));
@@ -155,6 +156,31 @@ TEST_CASE("matching of byte descriptors finds all words within the threshold") {
         bytes.values()[i] =
             std::uint8_t(std::clamp(512 * scene.descriptors.values()[i] + 0.5f, 0.0f, 255.0f));
     CHECK(check_against_naive(scene.codebook, bytes) > 200);
+
+    // words in bytes too, for descriptors of bytes and of floats
+    for (float& v : scene.codebook.words.values()) v = std::min(v, 255.0f);
+    const auto in_bytes = ism::in_bytes(scene.codebook);
+    CHECK(check_against_naive(in_bytes, bytes) > 200);
+    CHECK(check_against_naive(in_bytes, scene.descriptors) == 0);  // not of their units
+}
+
+TEST_CASE("words in bytes are the rounded words, their spread unchanged") {
+    Codebook<2> codebook{.words = Descriptors<float, 2>(2),
+                         .mean_sq_length = {100.1f * 100.1f + 0.6f * 0.6f + 7, 255 * 255},
+                         .group = {4, 2},
+                         .max_sq_distance = 30};
+    codebook.words.row(0)[0] = 100.1f, codebook.words.row(0)[1] = 0.6f, codebook.words.row(1)[0] = 255;
+    const auto bytes = ism::in_bytes(codebook);
+    CHECK(std::vector<int>(bytes.words.values().begin(), bytes.words.values().end()) ==
+          std::vector<int>{100, 1, 255, 0});
+    CHECK(bytes.mean_sq_length[0] == Approx(100 * 100 + 1 + 7));
+    CHECK(bytes.mean_sq_length[1] == 255 * 255);
+    CHECK(bytes.group == codebook.group);
+    CHECK(bytes.max_sq_distance == 30);
+    for (const float bad : {-0.1f, 255.1f, not_a_number}) {
+        codebook.words.row(1)[1] = bad;
+        CHECK_THROWS_WITH(ism::in_bytes(codebook), Catch::Contains("0 to 255"));
+    }
 }
 
 TEST_CASE("equal words and exact ties are matched alike, and the first is the nearest") {

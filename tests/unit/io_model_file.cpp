@@ -33,8 +33,9 @@ ism::Model<D, Desc> random_model(std::size_t words = 5, std::size_t each = 4, in
     ism::Model<D, Desc> model;
     model.extractor.options = {.upsampling = 1.75, .oriented = true, .max_features = 1234};
     model.extractor.options.scale_space = {.levels_per_octave = 4, .base_sigma = 1.7f, .max_octaves = 3};
-    model.codebook.words = ism::Descriptors<float, Desc::dimension>(words);
-    for (float& value : model.codebook.words.values()) value = number();
+    model.codebook.words = ism::Descriptors<typename Desc::Scalar, Desc::dimension>(words);
+    for (auto& value : model.codebook.words.values())
+        value = static_cast<typename Desc::Scalar>(50 + number());
     model.codebook.max_sq_distance = 0.1;
     model.shapes.class_names = {"car", "k\xC3\xBChe \"x\""};
     for (std::uint32_t i = 0; i < 3; ++i) {

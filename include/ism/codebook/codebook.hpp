@@ -20,9 +20,10 @@ namespace ism {
 /// of the clustering: the mean squared distance to the descriptors the word stands for, |d|² + mean_sq_length
 /// − 2 d·mean. In a joint codebook all words belong to group 0; in a codebook of one part a class, a word's
 /// group is its class.
-template <std::size_t Dimension>
+/// @tparam Scalar  float, or bytes for descriptors of bytes: see in_bytes()
+template <std::size_t Dimension, DescriptorScalar Scalar = float>
 struct Codebook {
-    Descriptors<float, Dimension> words;  ///< one row a word, in the units of the descriptor
+    Descriptors<Scalar, Dimension> words;  ///< one row a word, in the units of the descriptor
     std::vector<float> mean_sq_length;  ///< of each word: mean of |d|² over the descriptors d it stands for
     std::vector<std::uint32_t> group;   ///< of each word
     double max_sq_distance = 0;         ///< a descriptor matches every word no further away

@@ -3,15 +3,17 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 
 #include "ism/core/processor.hpp"
+#include "ism/feature/feature.hpp"
 
 namespace ism::detail {
 
-/// Eight sums side by side, added up in one order. A product of two floats is exact in double, so that a
+/// Eight sums side by side, added up in one order. A product of two floats, or of a float and
+/// a byte, is exact in double, so that a
 /// fused multiply-add rounds like two steps: the same bits on every processor.
-ISM_INLINE double dot_body(const float* a, const float* b, std::size_t size) {
+template <DescriptorScalar T>
+ISM_INLINE double dot_body(const float* a, const T* b, std::size_t size) {
     constexpr std::size_t lanes = 8;
     double sum[lanes] = {};
     std::size_t k = 0;
@@ -21,24 +23,29 @@ ISM_INLINE double dot_body(const float* a, const float* b, std::size_t size) {
     return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
 }
 
-using Dot = double(const float*, const float*, std::size_t);
+template <DescriptorScalar T>
+using Dot = double(const float*, const T*, std::size_t);
 
-inline double dot_any(const float* a, const float* b, std::size_t size) {
+template <DescriptorScalar T>
+double dot_any(const float* a, const T* b, std::size_t size) {
     return dot_body(a, b, size);
 }
 
 #if ISM_X86_UNITS
-ISM_TARGET("avx2,fma") inline double dot_avx2(const float* a, const float* b, std::size_t size) {
+template <DescriptorScalar T>
+ISM_TARGET("avx2,fma")
+double dot_avx2(const float* a, const T* b, std::size_t size) {
     return dot_body(a, b, size);
 }
 #endif
 
 /// The dot product of two rows in double, its bits the same for every unit.
-[[nodiscard]] inline Dot* exact_dot([[maybe_unused]] VectorUnit unit) {
+template <DescriptorScalar T>
+[[nodiscard]] Dot<T>* exact_dot([[maybe_unused]] VectorUnit unit) {
 #if ISM_X86_UNITS
-    if (unit != VectorUnit::any) return dot_avx2;
+    if (unit != VectorUnit::any) return dot_avx2<T>;
 #endif
-    return dot_any;
+    return dot_any<T>;
 }
 
 }  // namespace ism::detail

@@ -32,7 +32,7 @@ public:
         const std::size_t count = mean_sq_length.size();
         panels_.assign(filter_groups(count) * filter_group * dimension, 0.0f);
         bias_.assign(filter_groups(count) * filter_group, 0.0f);
-        Dot* const dot = exact_dot(unit);
+        Dot<float>* const dot = exact_dot<float>(unit);
         double sq_length = 0;
         for (std::size_t w = 0; w < count; ++w) {
             const float* word = words.data() + w * dimension;

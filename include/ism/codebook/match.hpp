@@ -27,20 +27,20 @@ struct MatchOptions {
 /// @brief The words that each descriptor looks like, by feature and within a feature by word. Exact: a fast
 /// filter only tells which words may lie within the threshold, and their distances are then taken in double.
 /// Where several words are equally near the first is the nearest. A descriptor with NaN or infinite numbers
-/// matches nothing. Beside the matches each thread needs at most 1.5 kB a word.
+/// matches nothing. Beside the matches each thread needs little, and 3 kB a word where everything matches.
 /// @throws Error where there are more than `max_matches`.
-template <std::size_t Dimension, DescriptorScalar Scalar>
-[[nodiscard]] std::vector<Match> match(const WordIndex<Dimension>& index,
+template <std::size_t Dimension, DescriptorScalar Scalar, DescriptorScalar WordScalar>
+[[nodiscard]] std::vector<Match> match(const WordIndex<Dimension, WordScalar>& index,
                                        const Descriptors<Scalar, Dimension>& descriptors,
                                        unsigned threads = 0, const MatchOptions& options = {}) {
     const std::size_t blocks = (descriptors.size() + detail::filter_block - 1) / detail::filter_block;
     std::vector<std::vector<Match>> found(blocks);
     Team team(unsigned(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(1, blocks))));
-    std::vector<detail::BlockMatcher<Dimension>> matchers(team.size(),
-                                                          detail::BlockMatcher<Dimension>(index));
+    using Matcher = detail::BlockMatcher<Dimension, WordScalar>;
+    std::vector<Matcher> matchers(team.size(), Matcher(index));
     std::atomic<std::size_t> total = 0;
     team.each(blocks, [&](std::size_t block, unsigned worker) {
-        detail::BlockMatcher<Dimension>& matcher = matchers[worker];
+        Matcher& matcher = matchers[worker];
         matcher.load(descriptors, block * detail::filter_block);
         matcher.find(options.mode);
         found[block] = matcher.matches(options.mode);
@@ -58,11 +58,11 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
 }
 
 /// @brief The words of a codebook that each descriptor looks like: makes an index for this once.
-template <std::size_t Dimension, DescriptorScalar Scalar>
-[[nodiscard]] std::vector<Match> match(const Codebook<Dimension>& codebook,
+template <std::size_t Dimension, DescriptorScalar Scalar, DescriptorScalar WordScalar>
+[[nodiscard]] std::vector<Match> match(const Codebook<Dimension, WordScalar>& codebook,
                                        const Descriptors<Scalar, Dimension>& descriptors,
                                        unsigned threads = 0, const MatchOptions& options = {}) {
-    return match(WordIndex<Dimension>(codebook), descriptors, threads, options);
+    return match(WordIndex<Dimension, WordScalar>(codebook), descriptors, threads, options);
 }
 
 /// @brief Of the matches of match() the nearest word of each group, with the weight 1.

@@ -14,16 +14,17 @@
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
+#include "ism/codebook/filter.hpp"
 #include "ism/codebook/word_index.hpp"
 #include "ism/feature/feature.hpp"
 
 namespace ism::detail {
 
 /// Matches one block of descriptors after another, in memory of its own.
-template <std::size_t Dimension>
+template <std::size_t Dimension, DescriptorScalar WordScalar>
 class BlockMatcher {
 public:
-    explicit BlockMatcher(const WordIndex<Dimension>& index)
+    explicit BlockMatcher(const WordIndex<Dimension, WordScalar>& index)
         : index_(&index),
           rows_(filter_block * Dimension),
           sq_lengths_(filter_block),
@@ -74,7 +75,7 @@ private:
     };
 
     /// `narrow`: only what is nearer than all before.
-    template <class Filter>
+    template <CandidateFilter Filter>
     void search(const Filter& filter, bool narrow) {
         auto& block = std::get<typename Filter::Block>(blocks_);
         filter.prepare(rows_, sq_lengths_, index_->max_sq_distance(), block);
@@ -99,7 +100,7 @@ private:
         }
     }
 
-    const WordIndex<Dimension>* index_;
+    const WordIndex<Dimension, WordScalar>* index_;
     std::size_t first_ = 0, count_ = 0;
     std::vector<float> rows_;
     std::vector<double> sq_lengths_;
@@ -108,8 +109,8 @@ private:
     std::vector<OfGroup> of_group_;   // empty between descriptors
 };
 
-template <std::size_t Dimension>
-std::vector<Match> BlockMatcher<Dimension>::matches(MatchMode mode) {
+template <std::size_t Dimension, DescriptorScalar WordScalar>
+std::vector<Match> BlockMatcher<Dimension, WordScalar>::matches(MatchMode mode) {
     std::array<std::size_t, filter_block + 1> begin{};
     for (const Hit& hit : hits_) ++begin[hit.query + 1];
     for (std::size_t i = 0; i < filter_block; ++i) begin[i + 1] += begin[i];

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -20,13 +22,13 @@ namespace ism {
 
 /// @brief The words of a codebook made ready for match(): for a codebook that is asked many times. It keeps
 /// what it needs of the codebook, which may go. May be asked from several threads at once.
-template <std::size_t Dimension>
+template <std::size_t Dimension, DescriptorScalar Scalar = float>
 class WordIndex {
 public:
     /// @param unit  for tests and measurements: matches are the same bits for each, only the time differs
     /// @throws Error for words or lengths that are not finite, lists of different lengths, a threshold that
     /// is negative or NaN, or a unit that the processor lacks.
-    explicit WordIndex(const Codebook<Dimension>& codebook, VectorUnit unit = best_unit());
+    explicit WordIndex(const Codebook<Dimension, Scalar>& codebook, VectorUnit unit = best_unit());
 
     /// @brief Number of words.
     [[nodiscard]] std::size_t size() const { return mean_sq_length_.size(); }
@@ -37,7 +39,7 @@ public:
     [[nodiscard]] std::uint32_t group(std::size_t word) const { return group_[word]; }
 
     /// @brief Squared length of a row, in double.
-    [[nodiscard]] double sq_length(const float* row) const { return dot_(row, row, Dimension); }
+    [[nodiscard]] double sq_length(const float* row) const { return length_(row, row, Dimension); }
     /// @brief The distance of a row to a word: see Codebook. The same bits on every processor.
     [[nodiscard]] double sq_distance(const float* row, double sq_length, std::size_t word) const {
         return sq_length + double(mean_sq_length_[word]) -
@@ -48,31 +50,39 @@ public:
     [[nodiscard]] const auto& filter() const { return filter_; }
 
 private:
-    std::vector<float> words_;
+    std::vector<Scalar> words_;
     std::vector<float> mean_sq_length_;
     std::vector<std::uint32_t> group_;
     std::size_t groups_ = 0;
     double max_sq_distance_ = 0;
-    detail::Dot* dot_;
+    detail::Dot<float>* length_;
+    detail::Dot<Scalar>* dot_;
     std::variant<detail::FloatFilter, detail::ByteFilter> filter_;
 };
 
-template <std::size_t Dimension>
-WordIndex<Dimension>::WordIndex(const Codebook<Dimension>& codebook, VectorUnit unit)
+template <std::size_t Dimension, DescriptorScalar Scalar>
+WordIndex<Dimension, Scalar>::WordIndex(const Codebook<Dimension, Scalar>& codebook, VectorUnit unit)
     : words_(codebook.words.values().begin(), codebook.words.values().end()),
       mean_sq_length_(codebook.mean_sq_length),
       group_(codebook.group),
       max_sq_distance_(codebook.max_sq_distance),
-      dot_(detail::exact_dot(unit)) {
+      length_(detail::exact_dot<float>(unit)),
+      dot_(detail::exact_dot<Scalar>(unit)) {
     expect(has_unit(unit), "matching: vector unit", "one that the processor has", int(unit));
     expect(codebook.mean_sq_length.size() == codebook.size() && codebook.group.size() == codebook.size(),
            "matching: mean square lengths and groups of words", codebook.size(),
            join_text(codebook.mean_sq_length.size(), ", ", codebook.group.size()));
     expect(max_sq_distance_ >= 0, "matching: largest squared distance", "0 or more", max_sq_distance_);
-    for (const std::vector<float>* values : {&words_, &mean_sq_length_}) {
+    std::vector<float> converted;
+    std::span<const float> words;
+    if constexpr (std::same_as<Scalar, float>)
+        words = words_;
+    else
+        converted.assign(words_.begin(), words_.end()), words = converted;
+    for (const std::span<const float> values : {words, std::span<const float>(mean_sq_length_)}) {
         const auto bad =
-            std::find_if_not(values->begin(), values->end(), [](float v) { return std::isfinite(v); });
-        expect(bad == values->end(), "matching: words", "finite numbers", bad == values->end() ? 0 : *bad);
+            std::find_if_not(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+        expect(bad == values.end(), "matching: words", "finite numbers", bad == values.end() ? 0 : *bad);
     }
     std::vector<std::uint32_t> used = group_;
     std::sort(used.begin(), used.end());
@@ -82,11 +92,11 @@ WordIndex<Dimension>::WordIndex(const Codebook<Dimension>& codebook, VectorUnit 
         group = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), group) - used.begin());
 
     // Bytes are faster where their rounding is small beside the threshold.
-    detail::ByteFilter bytes(words_, mean_sq_length_, Dimension, unit);
+    detail::ByteFilter bytes(words, mean_sq_length_, Dimension, unit);
     if (bytes.slack() < max_sq_distance_ / 4)
         filter_ = std::move(bytes);
     else
-        filter_ = detail::FloatFilter(words_, mean_sq_length_, Dimension, unit);
+        filter_ = detail::FloatFilter(words, mean_sq_length_, Dimension, unit);
 }
 
 }  // namespace ism

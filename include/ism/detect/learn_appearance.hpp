@@ -105,8 +105,9 @@ namespace detail {
 /// The labelled boxes of a training image, and what is found in it by shapes that have not seen its objects.
 template <Detector D, Descriptor Desc>
 [[nodiscard]] std::vector<AppearanceSample> appearance_samples(
-    const Extractor<D, Desc>& extractor, const WordIndex<Desc::dimension>& words, const Shapes& unseen,
-    const TrainingImage& image, const AppearanceOptions& options, const DetectOptions<Jism>& search) {
+    const Extractor<D, Desc>& extractor, const WordIndex<Desc::dimension, typename Desc::Scalar>& words,
+    const Shapes& unseen, const TrainingImage& image, const AppearanceOptions& options,
+    const DetectOptions<Jism>& search) {
     const auto found = extract(image.frame.gray, extractor, 1);
     const auto matches = match(words, found.descriptors, 1);
     const auto holds = [&](const Box& box) {
@@ -147,7 +148,7 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
     const std::size_t images = first_object.size() - 1;
     const DetectOptions<Jism> search{.max_hypotheses = std::max<std::size_t>(3, options.max_samples / images),
                                      .threads = 1};
-    const WordIndex<Desc::dimension> words(model.codebook);
+    const WordIndex<Desc::dimension, typename Desc::Scalar> words(model.codebook);
     std::mutex mutex;
     std::size_t done = 0;
     std::vector<std::vector<AppearanceSample>> parts(images);

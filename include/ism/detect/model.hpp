@@ -13,7 +13,7 @@ namespace ism {
 template <Detector D, Descriptor Desc>
 struct Model {
     Extractor<D, Desc> extractor;
-    Codebook<Desc::dimension> codebook;
+    Codebook<Desc::dimension, typename Desc::Scalar> codebook;  ///< of bytes for descriptors of bytes
     Shapes shapes;
 };
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/codebook/byte_codebook.hpp"
 #include "ism/codebook/match.hpp"
 #include "ism/core/random.hpp"
 #include "ism/detect/harvest.hpp"
@@ -148,7 +149,8 @@ template <Detector D, Descriptor Desc>
     const std::span<const Occurrence> seen = harvest.seen;
     const double max_sq_distance = 2 * (1 - options.min_similarity) * Desc::sq_length;
     if (options.progress) options.progress("clustering", 0, 1);
-    const auto words = detail::learn_words(harvest.descriptors, seen, classes, max_sq_distance, options);
+    const auto words = words_as<typename Desc::Scalar>(
+        detail::learn_words(harvest.descriptors, seen, classes, max_sq_distance, options));
     if (options.progress) options.progress("clustering", 1, 1);
     std::vector<Match> matches = match(words, harvest.descriptors, options.threads);
     if (options.codebook == CodebookKind::per_class)

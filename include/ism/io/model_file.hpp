@@ -71,7 +71,10 @@ inline constexpr std::int64_t model_format_version = 3;
                    .max_sq_distance = metadata_number(file, "max_sq_distance"),
                    .reference_size_px = metadata_number(file, "reference_size_px"),
                    .parameters = metadata_text(file, "parameters")};
-    (void)values<float>(file, "words", {any_length, any_length});
+    if (info.scalar == type_name(tensor_type<std::uint8_t>))
+        (void)values<std::uint8_t>(file, "words", {any_length, any_length});
+    else
+        (void)values<float>(file, "words", {any_length, any_length});
     info.words = tensor(file, "words").shape[0], info.dimension = tensor(file, "words").shape[1];
     info.occurrences = values<float>(file, "occurrences", {any_length, 5}).size() / 5;
     info.objects = values<std::uint32_t>(file, "object_classes", {any_length}).size();
@@ -82,20 +85,21 @@ inline constexpr std::int64_t model_format_version = 3;
 }
 
 /// The words, one by one checked.
-template <std::size_t Dimension>
-[[nodiscard]] Codebook<Dimension> codebook_from_tensors(const TensorFile& file, std::size_t words,
-                                                        std::size_t classes) {
-    const auto numbers = values<float>(file, "words", {words, Dimension});
+template <std::size_t Dimension, DescriptorScalar Scalar>
+[[nodiscard]] Codebook<Dimension, Scalar> codebook_from_tensors(const TensorFile& file, std::size_t words,
+                                                                std::size_t classes) {
+    const auto numbers = values<Scalar>(file, "words", {words, Dimension});
     const auto lengths = values<float>(file, "mean_sq_length", {words});
     const auto groups = values<std::uint32_t>(file, "group", {words});
-    Codebook<Dimension> codebook;
-    codebook.words = Descriptors<float, Dimension>(words);
+    Codebook<Dimension, Scalar> codebook;
+    codebook.words = Descriptors<Scalar, Dimension>(words);
     codebook.max_sq_distance = metadata_number(file, "max_sq_distance");
     expect<FileError>(words > 0, file.source + ": words", "1 or more", 0);
     expect<FileError>(codebook.max_sq_distance >= 0, file.source + ": max_sq_distance", "0 or more",
                       codebook.max_sq_distance);
-    for (const float number : numbers)
-        expect<FileError>(std::isfinite(number), file.source + ": words", "finite numbers", number);
+    for (const Scalar number : numbers)
+        expect<FileError>(std::isfinite(float(number)), file.source + ": words", "finite numbers",
+                          float(number));
     for (const float length : lengths)
         expect<FileError>(std::isfinite(length) && length >= 0, file.source + ": mean_sq_length", "0 or more",
                           length);
@@ -138,7 +142,8 @@ void save_model(const std::filesystem::path& path, const Model<D, Desc>& model) 
                      {"max_sq_distance", Json(model.codebook.max_sq_distance).dump()},
                      {"reference_size_px", Json(reference_size_px).dump()},
                      {"mask_cell_px", Json(mask_cell_px).dump()}};
-    file.tensors["words"] = make_tensor<float>(model.codebook.words.values(), {words, Desc::dimension});
+    file.tensors["words"] =
+        make_tensor<typename Desc::Scalar>(model.codebook.words.values(), {words, Desc::dimension});
     file.tensors["mean_sq_length"] = make_tensor<float>(model.codebook.mean_sq_length, {words});
     file.tensors["group"] = make_tensor<std::uint32_t>(model.codebook.group, {words});
     detail::shapes_to_tensors(model.shapes, file);
@@ -176,8 +181,8 @@ template <Detector D, Descriptor Desc>
         detail::member(parameters, "extraction", place), place + " of extraction",
         [&](const auto& read) { detail::each_extract_parameter(model.extractor.options, read); });
     expect<FileError>(info.upsampling > 0, place + ": upsampling", "above 0", info.upsampling);
-    model.codebook =
-        detail::codebook_from_tensors<Desc::dimension>(file, info.words, info.class_names.size());
+    model.codebook = detail::codebook_from_tensors<Desc::dimension, typename Desc::Scalar>(
+        file, info.words, info.class_names.size());
     model.shapes = detail::shapes_from_tensors(file, info.words);
     return model;
 }
