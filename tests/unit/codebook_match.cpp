@@ -317,7 +317,7 @@ TEST_CASE("filters drop most of what is out of reach, and bytes are used where t
     REQUIRE(hits > 50);
     std::vector<double> sq_lengths;
     const ism::WordIndex<128> any(scene.codebook, VectorUnit::any);
-    for (std::size_t i = 0; i < 96; ++i) sq_lengths.push_back(any.sq_length(scene.descriptors.row(i).data()));
+    for (std::size_t i = 0; i < 96; ++i) sq_lengths.push_back(any.sq_length(scene.descriptors.row(i)));
     for (const VectorUnit unit : units_here()) {
         CAPTURE(int(unit));
         const ism::WordIndex<128> index(scene.codebook, unit);

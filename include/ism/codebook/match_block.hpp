@@ -43,7 +43,7 @@ public:
             if (i < count_) {
                 const auto from = descriptors.row(first + i);
                 std::copy(from.begin(), from.end(), row);
-                sq_lengths_[i] = index_->sq_length(row);
+                sq_lengths_[i] = index_->sq_length(std::span<const float, Dimension>(row, Dimension));
             }
             if (sq_lengths_[i] < std::numeric_limits<double>::infinity())
                 good = row;
@@ -89,8 +89,8 @@ private:
             for (std::size_t i = 0; i < count_; ++i)
                 for (std::uint64_t mask = masks[i] & ~std::uint64_t(0) >> none; mask != 0; mask &= mask - 1) {
                     const auto word = std::uint32_t(first) + std::uint32_t(std::countr_zero(mask));
-                    const double distance =
-                        index_->sq_distance(rows_.data() + i * Dimension, sq_lengths_[i], word);
+                    const std::span<const float, Dimension> row(rows_.data() + i * Dimension, Dimension);
+                    const double distance = index_->sq_distance(row, sq_lengths_[i], word);
                     if (!(distance <= reach[i])) continue;
                     hits_.push_back({distance, std::uint32_t(i), word});
                     if (!narrow) continue;

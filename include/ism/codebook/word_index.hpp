@@ -38,12 +38,16 @@ public:
     /// @brief Number of the group of a word among those that have words.
     [[nodiscard]] std::uint32_t group(std::size_t word) const { return group_[word]; }
 
-    /// @brief Squared length of a row, in double.
-    [[nodiscard]] double sq_length(const float* row) const { return length_(row, row, Dimension); }
-    /// @brief The distance of a row to a word: see Codebook. The same bits on every processor.
-    [[nodiscard]] double sq_distance(const float* row, double sq_length, std::size_t word) const {
+    /// @brief Squared length of a descriptor, in double.
+    [[nodiscard]] double sq_length(std::span<const float, Dimension> descriptor) const {
+        return length_(descriptor.data(), descriptor.data(), Dimension);
+    }
+    /// @brief The distance of a descriptor to a word: see Codebook. The same bits on every processor.
+    /// @param sq_length  that of the descriptor
+    [[nodiscard]] double sq_distance(std::span<const float, Dimension> descriptor, double sq_length,
+                                     std::size_t word) const {
         return sq_length + double(mean_sq_length_[word]) -
-               2 * dot_(row, words_.data() + word * Dimension, Dimension);
+               2 * dot_(descriptor.data(), words_.data() + word * Dimension, Dimension);
     }
 
     /// @brief What tells candidates: detail::ByteFilter or detail::FloatFilter.
