@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+
+#include "ism/codebook/cluster_moments.hpp"
+#include "ism/codebook/merge_trace.hpp"
+#include "ism/codebook/reciprocal_merging.hpp"
+#include "ism/core/error.hpp"
+
+namespace ism {
+
+/// @brief How far an agglomeration goes.
+struct AverageLinkOptions {
+    double max_sq_distance = std::numeric_limits<double>::infinity();  ///< merges beyond are left out
+    unsigned threads = 0;                                              ///< 0 = all the machine has
+};
+
+/// @brief Average-link agglomerative clustering by squared Euclidean distance (the mean over all pairs of two
+/// clusters' points), from clusters on: the dendrogram up to a distance. All reciprocal nearest neighbours of
+/// a round are merged at once, which for average link gives the same clusters as merging the closest pair
+/// again and again (Benzécri 1982; Leibe, Leonardis, Schiele 2008, appendix). At most O(N² d) time a round,
+/// in practice little more than one search of all pairs; O(N d) memory. The same for any number of threads;
+/// among equal distances the choice is arbitrary.
+/// @throws Error as check() does, and for a largest distance that is negative or NaN.
+[[nodiscard]] inline MergeTrace trace_average_link(const ClusterMoments& start,
+                                                   const AverageLinkOptions& options = {}) {
+    check(start);
+    expect(options.max_sq_distance >= 0, "clustering: largest squared distance", "0 or more",
+           options.max_sq_distance);
+    return detail::ReciprocalMerging(start, options.max_sq_distance, options.threads).run();
+}
+
+}  // namespace ism

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace ism::detail {
+
+/// A cluster and how far it is.
+struct Near {
+    float sq_distance;
+    std::uint32_t cluster;
+};
+
+/// The nearest clusters of each cluster, nearest first, as many as fit, and how far the list is complete: all
+/// that are not on it lie at `reach` or further.
+class NearLists {
+public:
+    static constexpr std::size_t capacity = 16;
+
+    /// Empty lists that keep what is nearer than `limit`.
+    NearLists(std::size_t clusters, float limit)
+        : entries_(clusters * capacity), counts_(clusters, 0), reach_(clusters, limit), limit_(limit) {}
+
+    [[nodiscard]] std::span<const Near> of(std::uint32_t i) const {
+        return {entries_.data() + i * capacity, counts_[i]};
+    }
+    [[nodiscard]] float reach(std::uint32_t i) const { return reach_[i]; }
+    [[nodiscard]] bool complete(std::uint32_t i) const { return reach_[i] >= limit_; }
+
+    /// Whether the first of the list is the nearest of all clusters for sure.
+    [[nodiscard]] bool sure(std::uint32_t i) const {
+        return complete(i) || (counts_[i] > 0 && of(i).front().sq_distance < reach_[i]);
+    }
+
+    void clear(std::uint32_t i, float reach) { counts_[i] = 0, reach_[i] = std::min(reach, limit_); }
+
+    /// Puts a cluster on the list of i where it is near enough; one that finds no place shortens the reach.
+    void insert(std::uint32_t i, const Near& near) {
+        if (!(near.sq_distance <= reach_[i] && near.sq_distance < limit_)) return;
+        Near* const first = entries_.data() + i * capacity;
+        std::size_t at = counts_[i];
+        if (at == capacity) {
+            const bool fits = before(i, near, first[capacity - 1]);
+            reach_[i] = fits ? first[capacity - 1].sq_distance : near.sq_distance;
+            if (!fits) return;
+            --at;
+        } else {
+            ++counts_[i];
+        }
+        for (; at > 0 && before(i, near, first[at - 1]); --at) first[at] = first[at - 1];
+        first[at] = near;
+    }
+
+private:
+    /// An order of all pairs, so that some pair is always reciprocal; among equal distances a random one, so
+    /// that many are.
+    [[nodiscard]] static bool before(std::uint32_t i, const Near& a, const Near& b) {
+        if (a.sq_distance != b.sq_distance) return a.sq_distance < b.sq_distance;
+        const std::uint64_t key_a = pair_key(i, a.cluster), key_b = pair_key(i, b.cluster);
+        return key_a != key_b ? key_a < key_b : a.cluster < b.cluster;
+    }
+    [[nodiscard]] static std::uint64_t pair_key(std::uint32_t i, std::uint32_t j) {
+        std::uint64_t key = std::uint64_t(std::min(i, j)) << 32 | std::max(i, j);
+        key = (key ^ (key >> 31)) * 0x9e3779b97f4a7c15u;
+        key = (key ^ (key >> 29)) * 0xbf58476d1ce4e5b9u;
+        return key ^ (key >> 32);
+    }
+
+    std::vector<Near> entries_;
+    std::vector<std::uint8_t> counts_;
+    std::vector<float> reach_;
+    float limit_;
+};
+
+}  // namespace ism::detail
