@@ -31,31 +31,25 @@ public:
         slot_.resize(asking_, none);
         slot_.insert(slot_.end(), others.begin(), others.end());
         slot_.resize((slot_.size() + sieve_columns - 1) / sieve_columns * sieve_columns, none);
-        start_.assign(slot_.size(), std::numeric_limits<float>::infinity());
-        bar_.assign(slot_.size(), std::numeric_limits<float>::infinity());
-        panels_.assign(slot_.size() * sieve_depth, 0.0f);
-        for (std::size_t at = 0; at < slot_.size(); ++at) {
-            if (slot_[at] == none) continue;
-            start_[at] = live.half_square(slot_[at]);
-            if (at < asking_) bar_[at] = -0.5f * lists.reach(slot_[at]);
-            float* numbers =
-                panels_.data() + at / sieve_columns * sieve_columns * sieve_depth + at % sieve_columns;
-            for (std::size_t k = 0; k < sieve_depth; ++k)
-                numbers[k * sieve_columns] = live.head(slot_[at])[k];
-        }
+        start_.resize(slot_.size());
+        bar_.resize(slot_.size());
+        panels_.resize(slot_.size() * sieve_depth);
     }
 
     void run(Team& team) {
-        team.each(blocks_, [&](std::size_t a, unsigned /*worker*/) { meet(a, a); });
-        // Blocks that ask meet as teams of a league do, each once with every other: pairs of a day have no
-        // block in common, so that they may go on at the same time.
-        const std::size_t even = blocks_ + blocks_ % 2;
-        for (std::size_t day = 0; day + 1 < even; ++day)
-            team.each(even / 2, [&](std::size_t game, unsigned /*worker*/) {
-                const std::size_t days = even - 1;
+        team.each(slot_.size() / sieve_columns,
+                  [&](std::size_t panel, unsigned /*worker*/) { pack(panel * sieve_columns); });
+        // Those that ask are split into squads, which meet as in a league: each day all squads play, two and
+        // two, so that no two games of a day have a squad in common and all may go on at the same time.
+        const std::size_t most = std::max<std::size_t>(64, 4 * std::size_t(team.size()));
+        const std::size_t squad = std::max<std::size_t>(1, (blocks_ + most - 1) / most);
+        const std::size_t squads = (blocks_ + squad - 1) / squad, days = (squads + 1) / 2 * 2 - 1;
+        team.each(squads, [&](std::size_t a, unsigned /*worker*/) { play(a, a, squad); });
+        for (std::size_t day = 0; squads > 1 && day < days; ++day)
+            team.each((days + 1) / 2, [&](std::size_t game, unsigned /*worker*/) {
                 const std::size_t a = game == 0 ? days : (day + game) % days;
                 const std::size_t b = (day + days - game) % days;
-                if (std::max(a, b) < blocks_) meet(a, b);
+                if (std::max(a, b) < squads) play(a, b, squad);
             });
         team.each(asking_ / sieve_rows, [&](std::size_t strip, unsigned /*worker*/) {
             meet(strip * sieve_rows, asking_, slot_.size());
@@ -72,9 +66,25 @@ private:
         float sq_distance;
     };
 
-    void meet(std::size_t a, std::size_t b) {
-        for (std::size_t row = a * block; row < (a + 1) * block; row += sieve_rows)
-            meet(row, b * block, (b + 1) * block);
+    /// Makes the panel of the places from `first` on.
+    void pack(std::size_t first) {
+        float* numbers = panels_.data() + first * sieve_depth;
+        for (std::size_t at = first; at < first + sieve_columns; ++at, ++numbers) {
+            const bool used = slot_[at] != none;
+            constexpr float never = std::numeric_limits<float>::infinity();
+            start_[at] = used ? live_.half_square(slot_[at]) : never;
+            bar_[at] = used && at < asking_ ? -0.5f * lists_.reach(slot_[at]) : never;
+            for (std::size_t k = 0; k < sieve_depth; ++k)
+                numbers[k * sieve_columns] = used ? live_.head(slot_[at])[k] : 0.0f;
+        }
+    }
+
+    /// All pairs of two squads, or of one: blocks by blocks, near ones first.
+    void play(std::size_t a, std::size_t b, std::size_t squad) {
+        for (std::size_t i = a * squad; i < std::min(blocks_, (a + 1) * squad); ++i)
+            for (std::size_t j = a == b ? i : b * squad; j < std::min(blocks_, (b + 1) * squad); ++j)
+                for (std::size_t row = i * block; row < (i + 1) * block; row += sieve_rows)
+                    meet(row, j * block, (j + 1) * block);
     }
 
     /// The strip that begins at `row` with the columns from `first` to before `last`; within a block a row

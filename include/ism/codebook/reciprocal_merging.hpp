@@ -3,17 +3,15 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/codebook/cluster_moments.hpp"
+#include "ism/codebook/follow_merges.hpp"
 #include "ism/codebook/live_clusters.hpp"
 #include "ism/codebook/merge_trace.hpp"
 #include "ism/codebook/near_lists.hpp"
@@ -25,27 +23,24 @@ namespace ism::detail {
 /// Average link by merging all reciprocal nearest neighbours of a round at once.
 ///
 /// Each cluster has a list of near ones that is complete up to some reach. A merge never brings clusters
-/// nearer to others than the nearer of the two was, so lists stay complete when clusters on them or beyond
-/// them merge, and the list of a merged cluster follows from those of its two. Only when nothing is left on
-/// a list, all clusters are searched again.
+/// nearer to others than the nearer of the two was, so lists stay complete when clusters merge, and a merged
+/// cluster's list follows from those of its two. Only where nothing is left on a list, all are searched.
 class ReciprocalMerging {
 public:
     ReciprocalMerging(const ClusterMoments& start, double max_sq_distance, unsigned threads)
         : team_(threads),
           live_(start, team_),
           lists_(start.size(), limit_of(max_sq_distance)),
-          now_(start.size()),
-          partner_(start.size(), none),
-          node_(start.size()) {
-        std::iota(now_.begin(), now_.end(), 0u);
-        node_ = now_;
-        alive_ = live_.spatial_order();
+          merged_(start.size()),
+          alive_(live_.spatial_order()),
+          node_(merged_.now) {
         trace_.points = std::uint32_t(start.size());
         trace_.max_sq_distance = max_sq_distance;
     }
 
     [[nodiscard]] MergeTrace run() && {
-        search(alive_, {});
+        merge_equal();
+        NearSearch(live_, lists_, alive_, {}).run(team_);
         while (keep_those_with_neighbours()) {
             merge_reciprocal();
             follow_merges();
@@ -57,8 +52,6 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
     /// A bit more than asked, so that what a merge decides in double is not lost by rounding here.
     [[nodiscard]] static float limit_of(double max_sq_distance) {
         constexpr float most = std::numeric_limits<float>::max();
@@ -67,11 +60,24 @@ private:
     }
 
     [[nodiscard]] std::uint32_t nearest(std::uint32_t i) const {
-        return lists_.of(i).empty() ? none : lists_.of(i).front().cluster;
+        return lists_.of(i).empty() ? MergedClusters::none : lists_.of(i).front().cluster;
     }
 
-    void search(std::span<const std::uint32_t> asking, std::span<const std::uint32_t> others) {
-        NearSearch(live_, lists_, asking, others).run(team_);
+    /// Merges equal points before any search: many of them would fill each other's lists in every round.
+    void merge_equal() {
+        std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+        for (const std::uint32_t i : alive_) keys.emplace_back(live_.fingerprint(i), i);
+        std::sort(keys.begin(), keys.end());
+        for (std::size_t first = 0, at = 1; at < keys.size(); ++at) {
+            const auto [kept, gone] = std::pair(keys[first].second, keys[at].second);
+            if (keys[first].first != keys[at].first || !live_.equal(kept, gone)) {
+                first = at;
+                continue;
+            }
+            trace_.merges.emplace_back();
+            merge(trace_.merges.size() - 1, kept, gone);
+        }
+        forget_gone();
     }
 
     /// Clusters without a neighbour within reach are final: merging others never brings them nearer.
@@ -96,14 +102,22 @@ private:
         trace_.merges.resize(made + pairs_.size());
         team_.each(pairs_.size(), [&](std::size_t p, unsigned /*worker*/) {
             const auto [kept, gone] = pairs_[p];
-            Merge& merge = trace_.merges[made + p];
-            merge = {node_[kept], node_[gone], 0, live_.merge(kept, gone)};
-            merge.size = live_.points_of(kept);
-            node_[kept] = trace_.points + std::uint32_t(made + p);
-            now_[gone] = kept;
-            partner_[kept] = gone;
+            merge(made + p, kept, gone);
+            merged_.partner[kept] = gone;
         });
-        std::erase_if(alive_, [&](std::uint32_t i) { return now_[i] != i; });
+        forget_gone();
+    }
+
+    /// Merge number t.
+    void merge(std::size_t t, std::uint32_t kept, std::uint32_t gone) {
+        const double sq_distance = live_.merge(kept, gone);
+        trace_.merges[t] = {node_[kept], node_[gone], live_.points_of(kept), sq_distance};
+        node_[kept] = trace_.points + std::uint32_t(t);
+        merged_.now[gone] = kept;
+    }
+
+    void forget_gone() {
+        std::erase_if(alive_, [&](std::uint32_t i) { return merged_.now[i] != i; });
     }
 
     /// Brings all lists up to date with the merges of the round.
@@ -111,49 +125,24 @@ private:
         constexpr std::size_t part = 64;
         team_.each((alive_.size() + part - 1) / part, [&](std::size_t p, unsigned /*worker*/) {
             for (std::size_t a = p * part; a < std::min(alive_.size(), (p + 1) * part); ++a)
-                follow(alive_[a]);
+                follow(alive_[a], merged_, live_, lists_);
         });
-        for (const auto& [kept, gone] : pairs_) partner_[kept] = none;
-    }
-
-    void follow(std::uint32_t i) {
-        const auto merged = [&](std::uint32_t c) { return partner_[now_[c]] != none; };
-        const std::span<const Near> own = lists_.of(i);
-        if (!merged(i) &&
-            std::none_of(own.begin(), own.end(), [&](const Near& n) { return merged(n.cluster); }))
-            return;
-        std::array<Near, 2 * NearLists::capacity> old;
-        auto end = std::copy(own.begin(), own.end(), old.begin());
-        double reach = lists_.reach(i);
-        if (const std::uint32_t gone = partner_[i]; gone != none) {
-            end = std::copy(lists_.of(gone).begin(), lists_.of(gone).end(), end);
-            // its distance to any other is the mean of theirs, weighed by their sizes
-            const double share = double(live_.points_of(gone)) / live_.points_of(i);
-            reach += share * (lists_.reach(gone) - reach);
-        }
-        lists_.clear(i, float(reach));
-        for (auto at = old.begin(); at != end; ++at) {
-            const std::uint32_t c = now_[at->cluster];
-            const bool again = merged(i) || merged(at->cluster);
-            at->cluster = c;
-            if (c == i ||
-                (again && std::any_of(old.begin(), at, [&](const Near& n) { return n.cluster == c; })))
-                continue;
-            lists_.insert(i, {again ? live_.sq_distance(i, c) : at->sq_distance, c});
-        }
+        for (const auto& [kept, gone] : pairs_) merged_.partner[kept] = MergedClusters::none;
     }
 
     void search_again() {
         std::vector<std::uint32_t> asking, others;
         for (const std::uint32_t i : alive_) (lists_.sure(i) ? others : asking).push_back(i);
         for (const std::uint32_t i : asking) lists_.clear(i, std::numeric_limits<float>::max());
-        if (!asking.empty()) search(asking, others);
+        if (!asking.empty()) NearSearch(live_, lists_, asking, others).run(team_);
     }
 
     Team team_;
     LiveClusters live_;
     NearLists lists_;
-    std::vector<std::uint32_t> alive_, now_, partner_, node_;
+    MergedClusters merged_;
+    std::vector<std::uint32_t> alive_;
+    std::vector<std::uint32_t> node_;  // of each cluster in the trace
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     MergeTrace trace_;
 };
