@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT
 
 // Time of average-link clustering by number of points, one thread: the whole dendrogram, and cut where most
-// points have found others.
+// points have found others, and points added to clusters.
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "support/catch.hpp"
 
 #include "ism/codebook/cluster.hpp"
+#include "ism/codebook/growing_clusters.hpp"
 #include "ism/core/random.hpp"
 
 namespace {
@@ -28,7 +30,8 @@ std::vector<float> synthetic_points(std::size_t count, std::size_t dimension) {
 TEST_CASE("clustering by size", "[!benchmark]") {
     constexpr std::size_t dimension = 128;
     for (const std::size_t count : {500u, 2000u, 8000u}) {
-        const std::vector<float> values = synthetic_points(count, dimension);
+        const std::vector<float> all = synthetic_points(count + 500, dimension);
+        const auto values = std::span(all).first(count * dimension);
         const ism::ClusterMoments points{dimension, values, {}, {}};
         const ism::MergeTrace trace = ism::trace_average_link(points, {.threads = 1});
         const double cut = trace.merges[trace.merges.size() * 3 / 4].sq_distance;
@@ -41,6 +44,11 @@ TEST_CASE("clustering by size", "[!benchmark]") {
         };
         BENCHMARK("cutting a trace" + size) {
             return ism::cut(trace, cut).count;
+        };
+        const ism::Clusters clusters = ism::add_points({.dimension = dimension}, values, cut, 1).clusters;
+        BENCHMARK("adding 500 points to " + std::to_string(clusters.size()) + " clusters") {
+            return ism::add_points(clusters, std::span(all).subspan(count * dimension), cut, 1)
+                .clusters.size();
         };
     }
 }

@@ -26,7 +26,7 @@ struct ClusterMoments {
 
 /// @brief Throws Error unless all numbers are finite, sizes are 1 or more and in all below 2³², a mean square
 /// is not less than the square of the mean (but for rounding), and squared distances fit into a float.
-inline void check(const ClusterMoments& clusters) {
+inline void check_moments(const ClusterMoments& clusters) {
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     expect(clusters.dimension > 0 && clusters.means.size() % clusters.dimension == 0,
            "clustering: number of values", join_text("a multiple of the dimension ", clusters.dimension),

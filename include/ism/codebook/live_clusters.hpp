@@ -35,7 +35,8 @@ public:
             if (start.mean_sq_lengths.empty()) continue;
             double square = 0;
             for (const float value : from) square += double(value) * value;
-            spread_[i] = std::max(0.0, double(start.mean_sq_lengths[i]) - square);
+            // in float, so that a single point has none
+            spread_[i] = std::max(0.0f, start.mean_sq_lengths[i] - float(square));
         }
     }
 

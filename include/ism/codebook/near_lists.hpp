@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -22,6 +23,13 @@ struct Near {
 class NearLists {
 public:
     static constexpr std::size_t capacity = 16;
+
+    /// A bit more than a squared distance, so that nothing that near in double is lost by rounding.
+    [[nodiscard]] static float limit_of(double sq_distance) {
+        constexpr float most = std::numeric_limits<float>::max();
+        if (sq_distance >= 0.5 * double(most)) return most;
+        return std::nextafter(float(sq_distance * (1 + 1e-6)), most);
+    }
 
     /// Empty lists that keep what is nearer than `limit`.
     NearLists(std::size_t clusters, float limit)

@@ -21,12 +21,16 @@ namespace ism::detail {
 
 /// Fills the lists of some clusters from all pairs of these and of these with others. Pairs go through the
 /// sieve, strips against panels; the few that pass are measured. A pair of two that ask is looked at once and
-/// serves both.
+/// serves both; the last `settled` of those that ask have nothing to find among each other.
 class NearSearch {
 public:
     NearSearch(const LiveClusters& live, NearLists& lists, std::span<const std::uint32_t> asking,
-               std::span<const std::uint32_t> others)
-        : live_(live), lists_(lists), blocks_((asking.size() + block - 1) / block), asking_(blocks_ * block) {
+               std::span<const std::uint32_t> others, std::size_t settled = 0)
+        : live_(live),
+          lists_(lists),
+          blocks_((asking.size() + block - 1) / block),
+          asking_(blocks_ * block),
+          settled_from_(asking.size() - settled) {
         slot_.assign(asking.begin(), asking.end());
         slot_.resize(asking_, none);
         slot_.insert(slot_.end(), others.begin(), others.end());
@@ -83,8 +87,9 @@ private:
     void play(std::size_t a, std::size_t b, std::size_t squad) {
         for (std::size_t i = a * squad; i < std::min(blocks_, (a + 1) * squad); ++i)
             for (std::size_t j = a == b ? i : b * squad; j < std::min(blocks_, (b + 1) * squad); ++j)
-                for (std::size_t row = i * block; row < (i + 1) * block; row += sieve_rows)
-                    meet(row, j * block, (j + 1) * block);
+                if (std::min(i, j) * block < settled_from_)
+                    for (std::size_t row = i * block; row < (i + 1) * block; row += sieve_rows)
+                        meet(row, j * block, (j + 1) * block);
     }
 
     /// The strip that begins at `row` with the columns from `first` to before `last`; within a block a row
@@ -128,7 +133,7 @@ private:
 
     const LiveClusters& live_;
     NearLists& lists_;
-    std::size_t blocks_, asking_;
+    std::size_t blocks_, asking_, settled_from_;
     std::vector<std::uint32_t> slot_;
     AlignedVector<float> start_, bar_, panels_;
 };

@@ -35,7 +35,7 @@ inline void orthonormalise(Eigen::MatrixXd& columns) {
     for (Eigen::Index c = 0; c < directions.cols(); ++c)
         for (Eigen::Index r = 0; r < directions.rows(); ++r) directions(r, c) = random.normal();
     orthonormalise(directions);
-    for (int round = 0; round < 6; ++round) {
+    for (int round = 0; round < 3; ++round) {
         const Eigen::MatrixXf along = points.transpose() * directions.cast<float>();
         directions = (points * along).cast<double>();
         orthonormalise(directions);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,10 +26,13 @@ namespace ism::detail {
 /// cluster's list follows from those of its two. Only where nothing is left on a list, all are searched.
 class ReciprocalMerging {
 public:
-    ReciprocalMerging(const ClusterMoments& start, double max_sq_distance, unsigned threads)
+    /// The first `settled` clusters are known to lie further apart than `max_sq_distance`.
+    ReciprocalMerging(const ClusterMoments& start, double max_sq_distance, std::size_t settled,
+                      unsigned threads)
         : team_(threads),
+          settled_(settled),
           live_(start, team_),
-          lists_(start.size(), limit_of(max_sq_distance)),
+          lists_(start.size(), NearLists::limit_of(max_sq_distance)),
           merged_(start.size()),
           alive_(live_.spatial_order()),
           node_(merged_.now) {
@@ -40,7 +42,9 @@ public:
 
     [[nodiscard]] MergeTrace run() && {
         merge_equal();
-        NearSearch(live_, lists_, alive_, {}).run(team_);
+        const auto last = std::stable_partition(alive_.begin(), alive_.end(),
+                                                [&](std::uint32_t i) { return i >= settled_; });
+        NearSearch(live_, lists_, alive_, {}, std::size_t(alive_.end() - last)).run(team_);
         while (keep_those_with_neighbours()) {
             merge_reciprocal();
             follow_merges();
@@ -52,13 +56,6 @@ public:
     }
 
 private:
-    /// A bit more than asked, so that what a merge decides in double is not lost by rounding here.
-    [[nodiscard]] static float limit_of(double max_sq_distance) {
-        constexpr float most = std::numeric_limits<float>::max();
-        if (max_sq_distance >= 0.5 * double(most)) return most;
-        return std::nextafter(float(max_sq_distance * (1 + 1e-6)), most);
-    }
-
     [[nodiscard]] std::uint32_t nearest(std::uint32_t i) const {
         return lists_.of(i).empty() ? MergedClusters::none : lists_.of(i).front().cluster;
     }
@@ -138,6 +135,7 @@ private:
     }
 
     Team team_;
+    std::size_t settled_;
     LiveClusters live_;
     NearLists lists_;
     MergedClusters merged_;

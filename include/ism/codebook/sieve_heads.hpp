@@ -39,7 +39,7 @@ public:
         const Eigen::VectorXf middle =
             (Eigen::Map<Eigen::VectorXd>(sum.data(), Index(dimension)) / double(count)).cast<float>();
 
-        const std::size_t sample = whole_ ? 0 : std::min<std::size_t>(count, 1024);
+        const std::size_t sample = whole_ ? 0 : std::min<std::size_t>(count, 512);
         Eigen::MatrixXf points(dimension, sample);
         for (std::size_t s = 0; s < sample; ++s)
             points.col(Index(s)) = Eigen::Map<const Eigen::VectorXf>(
