@@ -12,5 +12,4 @@ struct Endless {
 
 const std::vector<ism::Vote<2>> votes;
 const ism::Bandwidth<2> bandwidth{{1, 1}, {ism::Growth::none, ism::Growth::none}};
-const ism::VoteGrid<2> grid(votes, bandwidth);
-const auto modes = ism::find_modes<Endless>(grid, std::span<const ism::Vote<2>>(votes), bandwidth);
+const auto modes = ism::find_modes<Endless>(std::span<const ism::Vote<2>>(votes), bandwidth);

@@ -21,6 +21,7 @@
 #include "ism/vote/cast.hpp"
 #include "ism/vote/kernel.hpp"
 #include "ism/vote/mean_shift.hpp"
+#include "ism/vote/strongest_modes.hpp"
 
 namespace ism {
 
@@ -102,46 +103,32 @@ template <std::size_t Dimension>
 
 /// @brief The places where votes of one label agree, strongest first, each told as a detection without
 /// segmentation.
-/// @param votes  as cast_votes gives them: all of a label one after another
+/// @param votes  as cast_votes gives them: by rising label
 template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
 [[nodiscard]] std::vector<Detection> find_hypotheses(std::span<const Vote<Space::dimension>> votes,
                                                      std::span<const Feature> features, const Shapes& shapes,
                                                      const Frame& frame,
                                                      const DetectOptions<Space>& options = {}) {
     constexpr std::size_t dimension = Space::dimension;
-    std::vector<std::span<const Vote<dimension>>> of_label;
-    for (std::size_t first = 0, i = 1; i <= votes.size(); ++i)
-        if (i == votes.size() || votes[i].label != votes[first].label) {
-            of_label.push_back(votes.subspan(first, i - first));
-            first = i;
+    const auto labels = split_by_label(votes);
+    const auto modes =
+        strongest_modes<K>(std::span<const std::span<const Vote<dimension>>>(labels), options.bandwidth,
+                           options.mean_shift, options.max_hypotheses, options.keep, options.threads);
+    std::vector<Detection> hypotheses(modes.size());
+    parallel_for(modes.size(), options.threads, [&](std::size_t i) {
+        const auto of_label = std::lower_bound(
+            labels.begin(), labels.end(), modes[i].label,
+            [](const auto& part, std::uint32_t label) { return part.front().label < label; });
+        const auto extent = options.bandwidth.at(modes[i].scale);
+        std::vector<std::pair<const Vote<dimension>*, double>> window;
+        for (const Vote<dimension>& vote : *of_label) {
+            const double kernel = K::profile(static_cast<float>(sq_windows(vote.at, modes[i].at, extent)));
+            if (kernel > 0) window.emplace_back(&vote, kernel);
         }
-    std::vector<std::vector<Detection>> found(of_label.size());
-    parallel_for(of_label.size(), options.threads, [&](std::size_t l) {
-        const VoteGrid<dimension> grid(of_label[l], options.bandwidth);
-        const auto modes = find_modes<K>(grid, of_label[l], options.bandwidth, options.mean_shift);
-        for (const auto& mode : modes) {
-            if (found[l].size() == options.max_hypotheses || mode.score < options.keep * modes.front().score)
-                break;
-            std::vector<std::pair<const Vote<dimension>*, double>> window;
-            grid.each_within(mode.at, options.bandwidth.at(mode.scale), K::reach,
-                             [&](std::uint32_t i, double sq_u) {
-                                 if (K::profile(sq_u) > 0)
-                                     window.emplace_back(&of_label[l][i], K::profile(sq_u));
-                             });
-            if (!window.empty())
-                found[l].push_back(
-                    detail::describe_hypothesis(mode.score, std::move(window), features, shapes, frame));
-        }
+        hypotheses[i] =
+            detail::describe_hypothesis(modes[i].score, std::move(window), features, shapes, frame);
     });
-    std::vector<Detection> hypotheses;
-    for (auto& part : found) std::move(part.begin(), part.end(), std::back_inserter(hypotheses));
-    std::stable_sort(hypotheses.begin(), hypotheses.end(),
-                     [](const Detection& a, const Detection& b) { return a.score > b.score; });
-    std::size_t count = 0;
-    while (count < hypotheses.size() && count < options.max_hypotheses &&
-           hypotheses[count].score >= options.keep * hypotheses.front().score)
-        ++count;
-    hypotheses.resize(count);
+    std::erase_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
     return hypotheses;
 }
 

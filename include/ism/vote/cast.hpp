@@ -3,29 +3,19 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
 #include "ism/vote/occurrence.hpp"
+#include "ism/vote/vote.hpp"
 #include "ism/vote/vote_space.hpp"
 
 namespace ism {
-
-/// @brief One vote: a point of the vote space with its weight, and where it comes from.
-template <std::size_t Dimension>
-struct Vote {
-    std::array<float, Dimension> at;
-    float scale = 1;          ///< s_f / s_i, whether the space has such an axis or not
-    float weight = 0;         ///< p(word | feature) · p(occurrence | word)
-    std::uint32_t label = 0;  ///< of the discrete axis; 0 where there is none
-    std::uint32_t feature = 0, word = 0, occurrence = 0;
-};
 
 /// @brief Which votes can be of an object in the picture.
 struct VoteLimits {
@@ -34,6 +24,29 @@ struct VoteLimits {
     double max_scale = std::numeric_limits<double>::infinity();
     float min_weight = 0;  ///< lighter votes are dropped
 };
+
+namespace detail {
+
+/// Rising labels; votes of one label stay in their order. Labels are mostly numbers of classes, which can be
+/// counted, but a user's may be anything.
+template <std::size_t Dimension>
+void sort_by_label(std::vector<Vote<Dimension>>& votes) {
+    std::uint32_t last = 0;
+    for (const auto& vote : votes) last = std::max(last, vote.label);
+    if (last > 2 * votes.size()) {
+        std::stable_sort(votes.begin(), votes.end(),
+                         [](const auto& a, const auto& b) { return a.label < b.label; });
+        return;
+    }
+    std::vector<std::size_t> next(std::size_t(last) + 2, 0);
+    for (const auto& vote : votes) ++next[vote.label + 1];
+    for (std::size_t label = 1; label < next.size(); ++label) next[label] += next[label - 1];
+    std::vector<Vote<Dimension>> sorted(votes.size());
+    for (const auto& vote : votes) sorted[next[vote.label]++] = vote;
+    votes = std::move(sorted);
+}
+
+}  // namespace detail
 
 /// @brief Casts the votes of matched features: each through every occurrence of each of its words. Votes
 /// lighter than `min_weight` are dropped, and in a space that needs depth those of features without a
@@ -66,13 +79,10 @@ template <AnyVoteSpace Space>
                          .feature = match.feature,
                          .word = match.word,
                          .occurrence = i};
-            if (std::all_of(vote.at.begin(), vote.at.end(), [](float v) { return std::isfinite(v); }))
-                votes.push_back(vote);
+            if (is_usable(vote)) votes.push_back(vote);
         }
     }
-    if constexpr (Space::has_label)
-        std::stable_sort(votes.begin(), votes.end(),
-                         [](const V& a, const V& b) { return a.label < b.label; });
+    if constexpr (Space::has_label) detail::sort_by_label(votes);
     return votes;
 }
 

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "ism/vote/bandwidth.hpp"
+#include "ism/vote/mode.hpp"
+#include "ism/vote/vote.hpp"
+
+namespace ism {
+
+/// @brief Where mean shift starts: bins of about the window's size, one set of them for each step of scale,
+/// as windows grow with it. Keeps its memory for the next votes.
+template <std::size_t Dimension>
+class StartBins {
+public:
+    /// @brief The means of the heaviest bins, heaviest first; their score is the bin's weight.
+    /// @param votes  of one label, such as check() takes
+    /// @param most   so many at most
+    /// @param least  lighter bins than this part of the heaviest are left out
+    [[nodiscard]] std::span<const Mode<Dimension>> find(std::span<const Vote<Dimension>> votes,
+                                                        const Bandwidth<Dimension>& bandwidth,
+                                                        std::size_t most, double least) {
+        bins_.clear(), keys_.clear();
+        if (votes.empty()) return {};
+        make_windows(votes, bandwidth);
+        std::size_t slots = 16;
+        while (slots < 2 * votes.size()) slots *= 2;
+        bin_at_.assign(slots, none);
+        for (const auto& vote : votes) {
+            Mode<Dimension>& bin = bins_[bin_of(vote, slots - 1)];
+            const double weight = vote.weight;
+            for (std::size_t k = 0; k < Dimension; ++k) bin.at[k] += weight * vote.at[k];
+            bin.scale += weight * vote.scale;
+            bin.score += weight;
+        }
+        return heaviest(most, least);
+    }
+
+private:
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    /// Steps of scale, four an octave: the exponent of a float and the first two digits behind it.
+    [[nodiscard]] static std::uint32_t level_of(float scale) {
+        return std::bit_cast<std::uint32_t>(scale) >> 21;
+    }
+    [[nodiscard]] static float middle_of(std::uint32_t level) {
+        return std::bit_cast<float>((level << 21) + (1u << 20));
+    }
+
+    /// The windows of all levels there are: a few hundred at most.
+    void make_windows(std::span<const Vote<Dimension>> votes, const Bandwidth<Dimension>& bandwidth) {
+        const auto [low, high] = std::minmax_element(
+            votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.scale < b.scale; });
+        lowest_ = level_of(low->scale);
+        per_window_.clear();
+        for (std::uint32_t level = lowest_; level <= level_of(high->scale); ++level) {
+            per_window_.push_back(bandwidth.at(middle_of(level)));
+            for (double& value : per_window_.back()) value = std::min(1 / value, 1e200);
+        }
+    }
+
+    /// The number of a vote's bin, a new one if it is the first there.
+    [[nodiscard]] std::uint32_t bin_of(const Vote<Dimension>& vote, std::size_t slot_mask) {
+        const std::uint32_t level = level_of(vote.scale);
+        const auto& per_window = per_window_[level - lowest_];
+        // A hash of the cell stands for the cell: 64 bits are not the same by chance.
+        std::uint64_t key = (std::uint64_t(level) + 1) * 0x9e3779b97f4a7c15u;
+        for (std::size_t k = 0; k < Dimension; ++k) {
+            const double cell = std::floor(vote.at[k] * per_window[k]) + 0.0;  // no -0
+            key = (key ^ std::bit_cast<std::uint64_t>(cell)) * 0x9e3779b97f4a7c15u;
+            key ^= key >> 29;
+        }
+        std::size_t slot = key & slot_mask;
+        while (bin_at_[slot] != none && keys_[bin_at_[slot]] != key) slot = (slot + 1) & slot_mask;
+        if (bin_at_[slot] == none) {
+            bin_at_[slot] = static_cast<std::uint32_t>(bins_.size());
+            keys_.push_back(key);
+            bins_.push_back({.at = {}, .scale = 0, .score = 0, .label = vote.label});
+        }
+        return bin_at_[slot];
+    }
+
+    [[nodiscard]] std::span<const Mode<Dimension>> heaviest(std::size_t most, double least) {
+        order_.resize(bins_.size());
+        for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
+        const std::size_t count = std::min(most, order_.size());
+        std::partial_sort(order_.begin(), order_.begin() + std::ptrdiff_t(count), order_.end(),
+                          [&](std::uint32_t a, std::uint32_t b) {
+                              return bins_[a].score > bins_[b].score ||
+                                     (bins_[a].score == bins_[b].score && a < b);
+                          });
+        starts_.clear();
+        for (std::size_t i = 0; i < count; ++i) {
+            Mode<Dimension> bin = bins_[order_[i]];
+            if (!(bin.score > 0) || bin.score < least * bins_[order_[0]].score) break;
+            for (double& value : bin.at) value /= bin.score;
+            bin.scale /= bin.score;
+            starts_.push_back(bin);
+        }
+        return starts_;
+    }
+
+    std::uint32_t lowest_ = 0;
+    std::vector<std::array<double, Dimension>> per_window_;
+    std::vector<std::uint32_t> bin_at_, order_;
+    std::vector<std::uint64_t> keys_;
+    std::vector<Mode<Dimension>> bins_, starts_;
+};
+
+}  // namespace ism

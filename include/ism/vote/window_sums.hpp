@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "ism/vote/kernel.hpp"
+#include "ism/vote/vote_grid.hpp"
+#include "ism/vote/vote_lanes.hpp"
+
+namespace ism {
+
+namespace detail {
+
+template <Kernel K, std::size_t Dimension>
+struct MeanSums {
+    Lanes weight{}, scale{};
+    std::array<Lanes, Dimension> at{};
+
+    void add(std::size_t lane, const VoteColumns<Dimension>& votes, const FloatWindow<Dimension>& window,
+             std::size_t i, float vote_weight) {
+        std::array<float, Dimension> offset;
+        float sq_u = 0;
+        for (std::size_t k = 0; k < Dimension; ++k) {
+            offset[k] = votes.at[k][i] - window.centre[k];
+            const float u = offset[k] * window.per_window[k];
+            sq_u += u * u;
+        }
+        const float w = static_cast<float>(K::shift(sq_u)) * vote_weight;
+        weight[lane] += w;
+        scale[lane] += w * votes.scale[i];
+        for (std::size_t k = 0; k < Dimension; ++k) at[k][lane] += w * offset[k];
+    }
+};
+
+template <Kernel K, std::size_t Dimension>
+struct ScoreSum {
+    Lanes score{};
+
+    void add(std::size_t lane, const VoteColumns<Dimension>& votes, const FloatWindow<Dimension>& window,
+             std::size_t i, float vote_weight) {
+        float sq_u = 0;
+        for (std::size_t k = 0; k < Dimension; ++k) {
+            const float u = (votes.at[k][i] - window.centre[k]) * window.per_window[k];
+            sq_u += u * u;
+        }
+        score[lane] += static_cast<float>(K::profile(sq_u)) * vote_weight;
+    }
+};
+
+/// The sums over a window.
+template <class Sums, Kernel K, std::size_t Dimension>
+[[nodiscard]] Sums sum_window(const VoteGrid<Dimension>& grid, const FloatWindow<Dimension>& place,
+                              const std::array<double, Dimension>& window) {
+    static_assert(lanes <= VoteGrid<Dimension>::padding);
+    std::array<double, Dimension> at;
+    std::copy(place.centre.begin(), place.centre.end(), at.begin());
+    const VoteColumns<Dimension> votes(grid);
+    Sums sums;
+    grid.each_run(at, window, K::reach,
+                  [&](std::size_t first, std::size_t last) { add_run(sums, votes, place, first, last); });
+    return sums;
+}
+
+}  // namespace detail
+
+/// @brief What a step of mean shift needs of a window.
+template <std::size_t Dimension>
+struct WindowMean {
+    double weight = 0;                   ///< Σ weight · shift
+    std::array<double, Dimension> at{};  ///< mean of the votes with these weights; undefined without weight
+    double scale = 0;                    ///< mean of their scales
+};
+
+/// @brief The mean of the votes in the window around `at`, weighed by the kernel's `shift`. Sums are of
+/// floats, relative to the centre: a mean is right to about a millionth of the window.
+template <Kernel K, std::size_t Dimension>
+[[nodiscard]] WindowMean<Dimension> window_mean(const VoteGrid<Dimension>& grid,
+                                                const std::array<double, Dimension>& at,
+                                                const std::array<double, Dimension>& window) {
+    const detail::FloatWindow<Dimension> place(at, window);
+    const auto sums = detail::sum_window<detail::MeanSums<K, Dimension>, K>(grid, place, window);
+    WindowMean<Dimension> mean{.weight = detail::sum_of(sums.weight)};
+    mean.scale = detail::sum_of(sums.scale) / mean.weight;
+    for (std::size_t k = 0; k < Dimension; ++k)
+        mean.at[k] = double(place.centre[k]) + detail::sum_of(sums.at[k]) / mean.weight;
+    return mean;
+}
+
+/// @brief Σ weight · profile over the votes in the window around `at`.
+template <Kernel K, std::size_t Dimension>
+[[nodiscard]] double window_score(const VoteGrid<Dimension>& grid, const std::array<double, Dimension>& at,
+                                  const std::array<double, Dimension>& window) {
+    const detail::FloatWindow<Dimension> place(at, window);
+    return detail::sum_of(detail::sum_window<detail::ScoreSum<K, Dimension>, K>(grid, place, window).score);
+}
+
+}  // namespace ism
