@@ -103,7 +103,7 @@ private:
     /// Cells are a part of the window of a typical vote: short along rows, which costs nothing, less so
     /// across, since each row of a window is a loop of its own.
     void choose_cells(std::span<const Vote<Dimension>> votes) {
-        constexpr std::size_t few = 1000;  // not worth ordering
+        constexpr std::size_t few = 500;  // not worth ordering
         cells_ = {};
         if (size_ <= few) return;
         auto low = votes[0].at, high = low;
