@@ -42,8 +42,8 @@ Model model_of(const ism::Shapes& shapes) {
     Model model;
     model.shapes = shapes;
     for (std::size_t w = 0; w + 1 < shapes.first.size(); ++w) {
-        std::array<float, ism::GrayPatch::dimension> row{};
-        row[0] = float(w);
+        std::array<ism::GrayPatch::Scalar, ism::GrayPatch::dimension> row{};
+        row[0] = ism::GrayPatch::Scalar(w);
         model.codebook.words.push_back(row);
         model.codebook.mean_sq_length.push_back(float(w * w));
         model.codebook.group.push_back(0);
