@@ -171,11 +171,14 @@ void run_demo(const DemoCommand& command) {
     const OverlayFiles overlays(folder / "overlays", set.test);
     std::vector<SceneOutcome> scenes(count);
     std::vector<ism::ReportSection> sections(std::min(count, report_scenes));
-    ism::parallel_for(count, command.threads, [&](std::size_t i) {
+    ism::Team team(command.threads);
+    std::vector<PictureMatcher> matchers;
+    for (unsigned worker = 0; worker < team.size(); ++worker) matchers.push_back(make_any_matcher(model, 1));
+    team.each(count, [&](std::size_t i, unsigned worker) {
         const ism::DatasetImage& image = set.test.images[i];
         const ism::Frame frame = ism::read_frame(image);
         const Stopwatch look_watch;
-        const Matched matched = look_up_any(model, frame, 1);
+        const ism::MatchedFeatures matched = matchers[worker](frame);
         const double look_seconds = look_watch.seconds();
         for (std::size_t s = 0; s < space_names.size(); ++s) {
             SearchOptions search;

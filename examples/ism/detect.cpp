@@ -95,12 +95,17 @@ void run_detect(const DetectCommand& command) {
     const Stopwatch search_watch;
     {
         ProgressLine progress;
-        ism::parallel_for(count, command.threads, [&](std::size_t i) {
+        // Several images are shared out among the threads; on a single one all threads work together.
+        const unsigned inner = count > 1 ? 1 : command.threads;
+        ism::Team team(count > 1 ? command.threads : 1);
+        std::vector<PictureMatcher> matchers;
+        for (unsigned worker = 0; worker < team.size(); ++worker)
+            matchers.push_back(make_any_matcher(model, inner));
+        team.each(count, [&](std::size_t i, unsigned worker) {
             const ism::DatasetImage& image = dataset.images[i];
-            const unsigned inner = count > 1 ? 1 : command.threads;
             const ism::Frame frame = ism::read_frame(image);
             const ism::Detections found =
-                find_objects(look_up_any(model, frame, inner), shapes, frame, command.search, inner);
+                find_objects(matchers[worker](frame), shapes, frame, command.search, inner);
             results[i] = to_results(found, image, ids);
             if (overlays || i < sections.size()) {
                 const ism::RgbImage picture = ism::read_rgb(image.file);

@@ -13,6 +13,7 @@
 #include "commands.hpp"
 
 #include "ism/detect/detection.hpp"
+#include "ism/detect/frame_matcher.hpp"
 #include "ism/detect/model.hpp"
 #include "ism/detect/train.hpp"
 #include "ism/feature/dense_grid.hpp"
@@ -38,11 +39,8 @@ struct Lessons {
     ism::TrainOptions options;
 };
 
-/// The features of a picture and the words they look like.
-struct Matched {
-    std::vector<ism::Feature> features;
-    std::vector<ism::Match> matches;
-};
+/// Finds the features of a picture and matches them to words: one picture at a time.
+using PictureMatcher = std::function<ism::MatchedFeatures(const ism::Frame&)>;
 
 // One of these for each detector and descriptor, compiled in models_*.cpp.
 template <ism::Detector D, ism::Descriptor Desc>
@@ -52,7 +50,7 @@ template <ism::Detector D, ism::Descriptor Desc>
 template <ism::Detector D, ism::Descriptor Desc>
 void save(const std::filesystem::path& path, const ism::Model<D, Desc>& model);
 template <ism::Detector D, ism::Descriptor Desc>
-[[nodiscard]] Matched look_up(const ism::Model<D, Desc>& model, const ism::Frame& frame, unsigned threads);
+[[nodiscard]] PictureMatcher make_matcher(const ism::Model<D, Desc>& model, unsigned threads);
 
 /// A model of the detector and descriptor of these names.
 [[nodiscard]] AnyModel learn_any(std::string_view detector, std::string_view descriptor,
@@ -63,15 +61,16 @@ template <ism::Detector D, ism::Descriptor Desc>
 [[nodiscard]] inline const ism::Shapes& shapes_of(const AnyModel& model) {
     return std::visit([](const auto& m) -> const ism::Shapes& { return m.shapes; }, model);
 }
-[[nodiscard]] inline Matched look_up_any(const AnyModel& model, const ism::Frame& frame, unsigned threads) {
-    return std::visit([&](const auto& m) { return look_up(m, frame, threads); }, model);
+/// Refers to the model.
+[[nodiscard]] inline PictureMatcher make_any_matcher(const AnyModel& model, unsigned threads) {
+    return std::visit([&](const auto& m) { return make_matcher(m, threads); }, model);
 }
 inline void save_any(const std::filesystem::path& path, const AnyModel& model) {
     std::visit([&](const auto& m) { save(path, m); }, model);
 }
 
 /// Detects objects in the vote space of this name.
-[[nodiscard]] ism::Detections find_objects(Matched matched, const ism::Shapes& shapes,
+[[nodiscard]] ism::Detections find_objects(ism::MatchedFeatures matched, const ism::Shapes& shapes,
                                            const ism::Frame& frame, const SearchOptions& search,
                                            unsigned threads);
 /// Whether a vote space uses depth.

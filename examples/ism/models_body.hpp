@@ -3,12 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "input.hpp"
 #include "models.hpp"
 
-#include "ism/detect/detect.hpp"
+#include "ism/detect/frame_matcher.hpp"
 #include "ism/io/model_file.hpp"
 #include "ism/io/write_file.hpp"
 
@@ -37,11 +38,9 @@ void save(const std::filesystem::path& path, const ism::Model<D, Desc>& model) {
 }
 
 template <ism::Detector D, ism::Descriptor Desc>
-Matched look_up(const ism::Model<D, Desc>& model, const ism::Frame& frame, unsigned threads) {
-    auto found = ism::extract(frame.gray, model.extractor, threads);
-    if (!frame.depth_m.empty()) found.features = ism::with_depth(std::move(found.features), frame.depth_m);
-    auto matches = ism::match(model.codebook, found.descriptors, threads);
-    return {std::move(found.features), std::move(matches)};
+PictureMatcher make_matcher(const ism::Model<D, Desc>& model, unsigned threads) {
+    const auto matcher = std::make_shared<ism::FrameMatcher<D, Desc>>(model, threads);
+    return [matcher](const ism::Frame& frame) { return matcher->match(frame); };
 }
 
 }  // namespace program

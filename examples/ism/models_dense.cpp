@@ -7,11 +7,11 @@ namespace program {
 template ism::Model<ism::DenseGrid, ism::Sift> learn(const Lessons&);
 template ism::Model<ism::DenseGrid, ism::Sift> load(const std::filesystem::path&);
 template void save(const std::filesystem::path&, const ism::Model<ism::DenseGrid, ism::Sift>&);
-template Matched look_up(const ism::Model<ism::DenseGrid, ism::Sift>&, const ism::Frame&, unsigned);
+template PictureMatcher make_matcher(const ism::Model<ism::DenseGrid, ism::Sift>&, unsigned);
 
 template ism::Model<ism::DenseGrid, ism::RootSift> learn(const Lessons&);
 template ism::Model<ism::DenseGrid, ism::RootSift> load(const std::filesystem::path&);
 template void save(const std::filesystem::path&, const ism::Model<ism::DenseGrid, ism::RootSift>&);
-template Matched look_up(const ism::Model<ism::DenseGrid, ism::RootSift>&, const ism::Frame&, unsigned);
+template PictureMatcher make_matcher(const ism::Model<ism::DenseGrid, ism::RootSift>&, unsigned);
 
 }  // namespace program

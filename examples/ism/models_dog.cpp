@@ -7,14 +7,12 @@ namespace program {
 template ism::Model<ism::DifferenceOfGaussians, ism::Sift> learn(const Lessons&);
 template ism::Model<ism::DifferenceOfGaussians, ism::Sift> load(const std::filesystem::path&);
 template void save(const std::filesystem::path&, const ism::Model<ism::DifferenceOfGaussians, ism::Sift>&);
-template Matched look_up(const ism::Model<ism::DifferenceOfGaussians, ism::Sift>&, const ism::Frame&,
-                         unsigned);
+template PictureMatcher make_matcher(const ism::Model<ism::DifferenceOfGaussians, ism::Sift>&, unsigned);
 
 template ism::Model<ism::DifferenceOfGaussians, ism::RootSift> learn(const Lessons&);
 template ism::Model<ism::DifferenceOfGaussians, ism::RootSift> load(const std::filesystem::path&);
 template void save(const std::filesystem::path&,
                    const ism::Model<ism::DifferenceOfGaussians, ism::RootSift>&);
-template Matched look_up(const ism::Model<ism::DifferenceOfGaussians, ism::RootSift>&, const ism::Frame&,
-                         unsigned);
+template PictureMatcher make_matcher(const ism::Model<ism::DifferenceOfGaussians, ism::RootSift>&, unsigned);
 
 }  // namespace program

@@ -7,11 +7,11 @@ namespace program {
 template ism::Model<ism::HessianLaplace, ism::Sift> learn(const Lessons&);
 template ism::Model<ism::HessianLaplace, ism::Sift> load(const std::filesystem::path&);
 template void save(const std::filesystem::path&, const ism::Model<ism::HessianLaplace, ism::Sift>&);
-template Matched look_up(const ism::Model<ism::HessianLaplace, ism::Sift>&, const ism::Frame&, unsigned);
+template PictureMatcher make_matcher(const ism::Model<ism::HessianLaplace, ism::Sift>&, unsigned);
 
 template ism::Model<ism::HessianLaplace, ism::RootSift> learn(const Lessons&);
 template ism::Model<ism::HessianLaplace, ism::RootSift> load(const std::filesystem::path&);
 template void save(const std::filesystem::path&, const ism::Model<ism::HessianLaplace, ism::RootSift>&);
-template Matched look_up(const ism::Model<ism::HessianLaplace, ism::RootSift>&, const ism::Frame&, unsigned);
+template PictureMatcher make_matcher(const ism::Model<ism::HessianLaplace, ism::RootSift>&, unsigned);
 
 }  // namespace program

@@ -20,7 +20,7 @@ struct ChosenVerifier {
 };
 
 template <ism::AnyVoteSpace Space>
-ism::Detections find_in(Matched matched, const ism::Shapes& shapes, const ism::Frame& frame,
+ism::Detections find_in(ism::MatchedFeatures matched, const ism::Shapes& shapes, const ism::Frame& frame,
                         const SearchOptions& search, unsigned threads) {
     ism::DetectOptions<Space> options;
     options.keep = search.keep.value_or(options.keep);
@@ -45,7 +45,7 @@ std::size_t space_index(std::string_view name) {
 
 }  // namespace
 
-ism::Detections find_objects(Matched matched, const ism::Shapes& shapes, const ism::Frame& frame,
+ism::Detections find_objects(ism::MatchedFeatures matched, const ism::Shapes& shapes, const ism::Frame& frame,
                              const SearchOptions& search, unsigned threads) {
     return finders[space_index(search.space)](std::move(matched), shapes, frame, search, threads);
 }

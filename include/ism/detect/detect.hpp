@@ -3,163 +3,21 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "ism/codebook/match.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/parallel.hpp"
 #include "ism/detect/detection.hpp"
+#include "ism/detect/frame_matcher.hpp"
+#include "ism/detect/hypotheses.hpp"
 #include "ism/detect/model.hpp"
 #include "ism/detect/segment.hpp"
 #include "ism/detect/verify.hpp"
-#include "ism/feature/depth.hpp"
-#include "ism/vote/cast.hpp"
-#include "ism/vote/kernel.hpp"
-#include "ism/vote/mean_shift.hpp"
-#include "ism/vote/strongest_modes.hpp"
+#include "ism/vote/appearance.hpp"
 
 namespace ism {
-
-/// @brief How objects are searched in a picture.
-template <AnyVoteSpace Space>
-struct DetectOptions {
-    Bandwidth<Space::dimension> bandwidth = default_bandwidth<Space>();
-    double keep = 0.05;  ///< T_ratio: weaker hypotheses than this part of the strongest are dropped
-    std::size_t max_hypotheses = 40;  ///< so many of the strongest are cut out and verified
-    double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
-    double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object
-    MatchMode matching = MatchMode::nearest;  ///< of votes; training and the judge of boxes match softly
-    float min_vote_weight = 0.0005f;          ///< lighter votes are dropped
-    MeanShiftOptions mean_shift = {};
-    SegmentOptions segmentation = {};
-    unsigned threads = 0;  ///< 0 = all the machine has
-};
-
-namespace detail {
-
-/// The value below which half of the weight lies; NaN without weight.
-[[nodiscard]] inline double weighted_median(std::vector<std::pair<double, double>> value_and_weight) {
-    std::stable_sort(value_and_weight.begin(), value_and_weight.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    double total = 0, sum = 0;
-    for (const auto& [value, weight] : value_and_weight) total += weight;
-    for (const auto& [value, weight] : value_and_weight)
-        if ((sum += weight) >= total / 2) return value;
-    return no_depth;
-}
-
-/// Tells from the votes of a window what the object would be: class, centre, scale, box, depth, position,
-/// support.
-template <std::size_t Dimension>
-[[nodiscard]] Detection describe_hypothesis(double score,
-                                            std::vector<std::pair<const Vote<Dimension>*, double>> window,
-                                            std::span<const Feature> features, const Shapes& shapes,
-                                            const Frame& frame) {
-    std::vector<double> of_class(shapes.class_names.size(), 0);
-    for (const auto& [vote, kernel] : window)
-        of_class[shapes.occurrences[vote->occurrence].class_index] += vote->weight * kernel;
-    Detection result;
-    result.class_index =
-        static_cast<std::size_t>(std::max_element(of_class.begin(), of_class.end()) - of_class.begin());
-    result.score = score;
-    std::erase_if(window, [&](const auto& entry) {
-        return shapes.occurrences[entry.first->occurrence].class_index != result.class_index;
-    });
-
-    double total = 0, x = 0, y = 0, scale = 0, width = 0, height = 0;
-    std::vector<std::pair<double, double>> depths;
-    for (const auto& [vote, kernel] : window) {
-        const double weight = vote->weight * kernel;
-        const Feature& f = features[vote->feature];
-        const Occurrence& o = shapes.occurrences[vote->occurrence];
-        const TrainingObject& object = shapes.objects[o.object];
-        total += weight;
-        x += weight * X::vote(f, o);
-        y += weight * Y::vote(f, o);
-        scale += weight * vote->scale;
-        width += weight * vote->scale * object.width;
-        height += weight * vote->scale * object.height;
-        if (is_depth(f.depth_m))
-            depths.emplace_back(f.depth_m - (std::isfinite(o.depth_m) ? o.depth_m : 0), weight);
-        result.support.push_back({vote->feature, vote->word, vote->occurrence, static_cast<float>(weight)});
-    }
-    result.centre = {x / total, y / total};
-    result.scale = scale / total;
-    result.box = box_around(result.centre, width / total, height / total);
-    result.depth_m = weighted_median(std::move(depths));
-    if (frame.camera && is_depth(result.depth_m))
-        result.position_m = back_project(*frame.camera, result.centre, result.depth_m);
-    std::stable_sort(result.support.begin(), result.support.end(),
-                     [](const Support& a, const Support& b) { return a.weight > b.weight; });
-    return result;
-}
-
-}  // namespace detail
-
-/// @brief The places where votes of one label agree, strongest first, each told as a detection without
-/// segmentation.
-/// @param votes  as cast_votes gives them: by rising label
-template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
-[[nodiscard]] std::vector<Detection> find_hypotheses(std::span<const Vote<Space::dimension>> votes,
-                                                     std::span<const Feature> features, const Shapes& shapes,
-                                                     const Frame& frame,
-                                                     const DetectOptions<Space>& options = {}) {
-    constexpr std::size_t dimension = Space::dimension;
-    const auto labels = split_by_label(votes);
-    const auto modes =
-        strongest_modes<K>(std::span<const std::span<const Vote<dimension>>>(labels), options.bandwidth,
-                           options.mean_shift, options.max_hypotheses, options.keep, options.threads);
-    std::vector<Detection> hypotheses(modes.size());
-    parallel_for(modes.size(), options.threads, [&](std::size_t i) {
-        const auto of_label = std::lower_bound(
-            labels.begin(), labels.end(), modes[i].label,
-            [](const auto& part, std::uint32_t label) { return part.front().label < label; });
-        const auto extent = options.bandwidth.at(modes[i].scale);
-        std::vector<std::pair<const Vote<dimension>*, double>> window;
-        for (const Vote<dimension>& vote : *of_label) {
-            const double kernel = K::profile(static_cast<float>(sq_windows(vote.at, modes[i].at, extent)));
-            if (kernel > 0) window.emplace_back(&vote, kernel);
-        }
-        hypotheses[i] =
-            detail::describe_hypothesis(modes[i].score, std::move(window), features, shapes, frame);
-    });
-    std::erase_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
-    return hypotheses;
-}
-
-/// @brief Casts the votes of matched features and finds where they agree: see find_hypotheses().
-/// @throws Error for an option out of range or shapes without objects.
-template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
-[[nodiscard]] std::vector<Detection> vote_for(std::span<const Feature> features,
-                                              std::span<const Match> matches, const Shapes& shapes,
-                                              const Frame& frame, const DetectOptions<Space>& options = {}) {
-    expect(options.keep >= 0 && options.keep <= 1, "detection: part of the strongest score to keep (T_ratio)",
-           "0 ... 1", options.keep);
-    check(options.bandwidth);
-    expect(options.min_size_px >= 0 && options.max_size_px >= 0, "detection: least and largest object size",
-           "0 px or more", join_text(options.min_size_px, ", ", options.max_size_px));
-    expect(!shapes.objects.empty(), "detection: training objects of the model", "1 or more", 0);
-    const auto [smallest, largest] = std::minmax_element(
-        shapes.objects.begin(), shapes.objects.end(),
-        [](const TrainingObject& a, const TrainingObject& b) { return a.size_px < b.size_px; });
-    const double min_size_px = options.min_size_px > 0 ? options.min_size_px : smallest->size_px / 2;
-    const double max_size_px = options.max_size_px > 0 ? options.max_size_px : largest->size_px * 2;
-    std::vector<Match> nearest;
-    if (options.matching == MatchMode::nearest) nearest = nearest_only(matches);
-    const auto voting = options.matching == MatchMode::nearest ? std::span<const Match>(nearest) : matches;
-    const auto votes = cast_votes<Space>(features, voting, shapes,
-                                         {.width = static_cast<double>(frame.gray.width()),
-                                          .height = static_cast<double>(frame.gray.height()),
-                                          .min_scale = min_size_px / reference_size_px,
-                                          .max_scale = max_size_px / reference_size_px,
-                                          .min_weight = options.min_vote_weight});
-    return find_hypotheses<Space, K>(votes, features, shapes, frame, options);
-}
 
 /// @brief Detects objects from features already matched: votes, mean shift, the judge of boxes,
 /// segmentation, verification.
@@ -194,22 +52,42 @@ template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl>
     return result;
 }
 
-/// @brief Finds, cuts out and places the objects of a picture. A picture in which nothing is found gives an
-/// empty list. A model may be used from several threads at once.
-/// @tparam Space  the vote space: Ism, Jism, Ji3sm1, Ji3sm2, Ji3sm3 or one of your own
-/// @throws Error for a frame that is none (see check(Frame)), an option out of range, or a space that needs
-/// depth where the frame has none.
+/// @brief Finds, cuts out and places the objects of one picture after another with one model, with the same
+/// threads and memory for features. One picture at a time; for several at once make several.
+template <Detector D, Descriptor Desc>
+class FrameDetector {
+public:
+    /// @param model    is referred to, so it has to stay as long as this
+    /// @param threads  for features and matching (0 = all the machine has)
+    explicit FrameDetector(const Model<D, Desc>& model, unsigned threads = 0)
+        : shapes_(model.shapes), matcher_(model, threads) {}
+
+    /// @brief Detects the objects of a picture; an empty list where nothing is found.
+    /// @tparam Space  the vote space: Ism, Jism, Ji3sm1, Ji3sm2, Ji3sm3 or one of your own
+    /// @throws Error for a frame that is none (see check(Frame)), an option out of range, or a space that
+    /// needs depth where the frame has none.
+    template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl>
+    [[nodiscard]] Detections detect(const Frame& frame, const DetectOptions<Space>& options = {},
+                                    const V& verifier = {}) {
+        check(options);
+        MatchedFeatures found = matcher_.match(frame);
+        expect(!Space::needs_depth || !frame.depth_m.empty(), "depth image",
+               "one, since the vote space uses depth", "none");
+        return detect_from_matches<Space, K>(std::move(found.features), found.matches, shapes_, frame,
+                                             options, verifier);
+    }
+
+private:
+    const Shapes& shapes_;
+    FrameMatcher<D, Desc> matcher_;
+};
+
+/// @brief Detects the objects of one picture: see FrameDetector, which is made for this once. A model may be
+/// used from several threads at once.
 template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl, Detector D, Descriptor Desc>
 [[nodiscard]] Detections detect(const Model<D, Desc>& model, const Frame& frame,
                                 const DetectOptions<Space>& options = {}, const V& verifier = {}) {
-    check(frame);
-    expect(!Space::needs_depth || !frame.depth_m.empty(), "depth image",
-           "one, since the vote space uses depth", "none");
-    auto found = extract(frame.gray, model.extractor, options.threads);
-    if (!frame.depth_m.empty()) found.features = with_depth(std::move(found.features), frame.depth_m);
-    const auto matches = match(model.codebook, found.descriptors, options.threads);
-    return detect_from_matches<Space, K>(std::move(found.features), matches, model.shapes, frame, options,
-                                         verifier);
+    return FrameDetector<D, Desc>(model, options.threads).template detect<Space, K>(frame, options, verifier);
 }
 
 }  // namespace ism

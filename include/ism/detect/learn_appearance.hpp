@@ -15,8 +15,8 @@
 
 #include "ism/codebook/match.hpp"
 #include "ism/core/parallel.hpp"
-#include "ism/detect/detect.hpp"
 #include "ism/detect/harvest.hpp"
+#include "ism/detect/hypotheses.hpp"
 #include "ism/detect/model.hpp"
 #include "ism/vote/appearance.hpp"
 
