@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+
+// What is lost when only the best words of a joint codebook are kept, by each measure of their worth:
+// accuracy and mean AP on the four-class set (--data FOLDER with train.json and test.json), by number of
+// words.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/photographs.hpp"
+#include "support/rows.hpp"
+#include <CLI/CLI.hpp>
+
+#include "ism/detect/detect.hpp"
+#include "ism/detect/train.hpp"
+#include "ism/evaluate/evaluate.hpp"
+#include "ism/feature/hessian_laplace.hpp"
+#include "ism/feature/sift.hpp"
+#include "ism/io/coco.hpp"
+#include "ism/io/color.hpp"
+#include "ism/io/svg.hpp"
+#include "ism/io/write_file.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using Model = ism::Model<ism::HessianLaplace, ism::RootSift>;
+
+struct Figures {
+    double accuracy = 0, ap = 0;
+};
+
+[[nodiscard]] Figures figures_of(const Model& model, const ism::Dataset& set) {
+    std::vector<std::vector<ism::FoundObject>> parts(set.images.size());
+    ism::parallel_for(set.images.size(), 0, [&](std::size_t i) {
+        const auto result = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {.threads = 1});
+        for (const ism::Detection& d : result.objects)
+            parts[i].push_back({.image = i, .class_index = d.class_index, .box = d.box, .score = d.score});
+    });
+    std::vector<ism::FoundObject> found;
+    for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
+    std::vector<ism::TruthObject> truth;
+    for (std::size_t i = 0; i < set.images.size(); ++i)
+        for (const auto& object : set.images[i].objects)
+            truth.push_back({.image = i, .class_index = object.class_index, .box = object.box});
+    const auto no_masks = [](std::size_t, std::size_t) { return std::nan(""); };
+    const auto evaluation =
+        ism::evaluate(truth, found, set.images.size(), set.class_names, ism::IouRule{0.5}, no_masks);
+    return {evaluation.confusion ? evaluation.confusion->accuracy() : std::nan(""), evaluation.mean.ap};
+}
+
+void measure(const fs::path& data, bool judge, const std::string& svg) {
+    struct Choice {
+        const char* name;
+        ism::WordMeasure measure;
+    };
+    constexpr std::array choices = {Choice{"occurrences", ism::WordMeasure::occurrences},
+                                    Choice{"information gain", ism::WordMeasure::information_gain},
+                                    Choice{"vote agreement", ism::WordMeasure::vote_agreement}};
+    const ism::Dataset train = ism::read_dataset(data / "train.json"),
+                       test = ism::read_dataset(data / "test.json");
+    const auto source = [&](std::size_t i) { return ism::read_training_image(train.images[i]); };
+    const auto harvest =
+        ism::harvest<ism::HessianLaplace, ism::RootSift>(train.class_names, train.images.size(), source);
+    const Model all = ism::learn(harvest, {});
+    std::vector<std::vector<std::string>> table = {
+        {"words", "occurrences", "", "information gain", "", "vote agreement", ""},
+        {"", "accuracy %", "AP %", "accuracy %", "AP %", "accuracy %", "AP %"}};
+    ism::Plot plot{.title = "Accuracy by number of words",
+                   .x_label = "words (logarithm to base 2)",
+                   .y_label = "accuracy"};
+    for (std::size_t m = 0; m < choices.size(); ++m)
+        plot.curves.push_back({.name = choices[m].name, .color = ism::class_color(m)});
+    for (std::size_t count = all.codebook.size(); count >= 100; count = count * 10 / 18) {
+        std::vector<std::string> row = {std::to_string(count)};
+        for (std::size_t m = 0; m < choices.size(); ++m) {
+            Model model =
+                ism::keep_words(all, ism::best_words(ism::word_worth(all.shapes, choices[m].measure), count));
+            if (judge) model.shapes.appearance = ism::learn_appearance(model, harvest.first_object, source);
+            const Figures figures = figures_of(model, test);
+            row.push_back(bench::number(100 * figures.accuracy, 1));
+            row.push_back(bench::number(100 * figures.ap, 1));
+            plot.curves[m].x.push_back(std::log2(double(count)));
+            plot.curves[m].y.push_back(figures.accuracy);
+        }
+        std::fprintf(stderr, "%zu words\n", count);
+        table.push_back(std::move(row));
+    }
+    plot.x_range = {6, std::ceil(std::log2(double(all.codebook.size())))};
+    std::fputs(ism::align_columns(table).c_str(), stdout);
+    if (!svg.empty()) ism::write_file(svg, [&](std::ostream& out) { out << ism::to_svg(plot); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"Accuracy by number of words, for three ways to choose them"};
+    std::string data = (bench::data_folder() / "four-class").string(), svg = "word_selection.svg";
+    bool judge = false;
+    app.add_option("--data", data, "folder with train.json and test.json");
+    app.add_option("--plot", svg, "file of the plot (SVG)");
+    app.add_flag("--judge", judge, "also learn the judge of boxes each time");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        measure(data, judge, svg);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "word_selection: %s\n", error.what());
+        return 2;
+    }
+}
