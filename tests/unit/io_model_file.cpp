@@ -49,6 +49,7 @@ ism::Model<D, Desc> random_model(std::size_t words = 5, std::size_t each = 4, in
     for (std::uint32_t w = 0; w < words; ++w) {
         model.codebook.mean_sq_length.push_back(std::abs(number()));
         model.codebook.group.push_back(w % 2);
+        model.codebook.sizes.push_back(2 + 1000 * w);
         model.shapes.first.push_back(std::uint32_t(model.shapes.occurrences.size()));
         for (std::uint32_t i = 0; i < each * (w % 3); ++i)
             model.shapes.occurrences.push_back({number(), number(), std::abs(number()) + 0.1f,
@@ -75,6 +76,7 @@ void check_equal(const M& a, const M& b) {
     CHECK(same_bytes(bytes(a.codebook.words), bytes(b.codebook.words)));
     CHECK(same_bytes(a.codebook.mean_sq_length, b.codebook.mean_sq_length));
     CHECK(a.codebook.group == b.codebook.group);
+    CHECK(a.codebook.sizes == b.codebook.sizes);
     CHECK(a.codebook.max_sq_distance == b.codebook.max_sq_distance);
     CHECK(a.shapes.class_names == b.shapes.class_names);
     CHECK(a.shapes.first == b.shapes.first);
@@ -168,7 +170,7 @@ TEST_CASE("A model file tells what is in it") {
     CHECK(info.upsampling == 1.75);
     CHECK(info.max_sq_distance == 0.1);
     CHECK(info.reference_size_px == ism::reference_size_px);
-    CHECK(info.format_version == 3);
+    CHECK(info.format_version == 4);
     CHECK(info.parameters.find("\"alpha\"") != std::string::npos);
 }
 
@@ -220,6 +222,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
     const std::vector<std::pair<std::string, std::function<void(File&)>>> cases = {
         {": words: expected finite numbers", [&](File& f) { set(f, "words", 3, infinity); }},
         {": mean_sq_length: expected 0 or more", [](File& f) { set(f, "mean_sq_length", 1, -1.0f); }},
+        {": word_sizes: expected 1 or more", [](File& f) { set(f, "word_sizes", 0, 0u); }},
         {": group of a word: expected below 2, got 2", [](File& f) { set(f, "group", 0, 2u); }},
         {": first_occurrence: expected rising", [](File& f) { set(f, "first_occurrence", 1, 9u); }},
         {": first_occurrence: expected 0 to", [](File& f) { set(f, "first_occurrence", 0, 1u); }},
@@ -242,7 +245,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": max_sq_distance: expected 0 or more", [](File& f) { f.metadata["max_sq_distance"] = "-1"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 3, got 1", [](File& f) { f.metadata["format_version"] = "1"; }},
+        {": format version: expected 4, got 1", [](File& f) { f.metadata["format_version"] = "1"; }},
         {": expected metadata 'parameters'", [](File& f) { f.metadata.erase("parameters"); }},
         {", parameters: extraction", [](File& f) { f.metadata["parameters"] = "{}"; }},
         {": expected a tensor 'mask_runs'", [](File& f) { f.tensors.erase("mask_runs"); }},
@@ -255,6 +258,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
              f.tensors["words"] = ism::make_tensor<float>({}, {0, 128});
              f.tensors["mean_sq_length"] = ism::make_tensor<float>({}, {0});
              f.tensors["group"] = ism::make_tensor<std::uint32_t>({}, {0});
+             f.tensors["word_sizes"] = ism::make_tensor<std::uint32_t>({}, {0});
          }},
     };
     for (const auto& [expected, change] : cases) {
@@ -280,7 +284,7 @@ TEST_CASE("A model of 5000 words and 30000 occurrences takes less than 20 MB") {
     }
     ism::save_model(folder / "m", model);
     CHECK(std::filesystem::file_size(folder / "m") < 20'000'000);
-    CHECK(std::filesystem::file_size(folder / "m") < 4'000'000);
+    CHECK(std::filesystem::file_size(folder / "m") < 4'100'000);
     CHECK(ism::load_model<ism::HessianLaplace, ism::RootSift>(folder / "m").shapes.objects[400].mask ==
           model.shapes.objects[400].mask);
 }

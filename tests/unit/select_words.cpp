@@ -47,6 +47,7 @@ Model model_of(const ism::Shapes& shapes) {
         model.codebook.words.push_back(row);
         model.codebook.mean_sq_length.push_back(float(w * w));
         model.codebook.group.push_back(0);
+        model.codebook.sizes.push_back(10 + std::uint32_t(w));
     }
     model.codebook.max_sq_distance = 3;
     return model;
@@ -115,6 +116,7 @@ TEST_CASE("a model keeps the chosen words with their occurrences") {
     CHECK(kept.codebook.words.row(1)[0] == 2);
     CHECK(kept.codebook.mean_sq_length == std::vector<float>{0, 4});
     CHECK(kept.codebook.max_sq_distance == 3);
+    CHECK(kept.codebook.sizes == std::vector<std::uint32_t>{10, 12});
     CHECK(kept.shapes.first == std::vector<std::uint32_t>{0, 2, 6});
     CHECK(kept.shapes.of_word(1)[3].object == 3);
     CHECK(kept.shapes.objects.size() == 4);

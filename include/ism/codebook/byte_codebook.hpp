@@ -21,7 +21,8 @@ template <std::size_t Dimension>
     Codebook<Dimension, std::uint8_t> result{.words = Descriptors<std::uint8_t, Dimension>(codebook.size()),
                                              .mean_sq_length = codebook.mean_sq_length,
                                              .group = codebook.group,
-                                             .max_sq_distance = codebook.max_sq_distance};
+                                             .max_sq_distance = codebook.max_sq_distance,
+                                             .sizes = codebook.sizes};
     for (std::size_t w = 0; w < codebook.size(); ++w) {
         double longer = 0;  // the squared length of the word
         for (std::size_t k = 0; k < Dimension; ++k) {

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "ism/codebook/cluster.hpp"
+#include "ism/codebook/growing_clusters.hpp"
 #include "ism/core/error.hpp"
 #include "ism/feature/feature.hpp"
 
@@ -27,6 +25,7 @@ struct Codebook {
     std::vector<float> mean_sq_length;  ///< of each word: mean of |d|² over the descriptors d it stands for
     std::vector<std::uint32_t> group;   ///< of each word
     double max_sq_distance = 0;         ///< a descriptor matches every word no further away
+    std::vector<std::uint32_t> sizes = {};  ///< descriptors each word stands for
 
     [[nodiscard]] std::size_t size() const { return words.size(); }
 };
@@ -46,6 +45,20 @@ enum class MatchMode {
     nearest,  ///< only the nearest of each group, if within the threshold
 };
 
+namespace detail {
+
+/// One more word: cluster c.
+template <std::size_t Dimension>
+void add_word(Codebook<Dimension>& codebook, const Clusters& clusters, std::size_t c, std::uint32_t group) {
+    codebook.words.push_back(
+        std::span<const float, Dimension>(clusters.means.data() + c * Dimension, Dimension));
+    codebook.mean_sq_length.push_back(clusters.mean_sq_lengths[c]);
+    codebook.sizes.push_back(clusters.sizes[c]);
+    codebook.group.push_back(group);
+}
+
+}  // namespace detail
+
 /// @brief Clusters descriptors into words and drops words of fewer than `min_cluster_size` descriptors
 /// (T_Q + 1 in the paper).
 /// @throws Error where no word is left.
@@ -53,30 +66,14 @@ template <std::size_t Dimension>
 [[nodiscard]] Codebook<Dimension> build_codebook(const Descriptors<float, Dimension>& descriptors,
                                                  double max_sq_distance, std::size_t min_cluster_size,
                                                  std::uint32_t group = 0, unsigned threads = 0) {
-    const Clustering clustering =
-        cluster_average_link(descriptors.values(), Dimension, max_sq_distance, threads);
-    std::vector<std::size_t> size(clustering.count, 0);
-    std::vector<double> sq_length(clustering.count, 0);
-    Descriptors<float, Dimension> means(clustering.count);
-    for (std::size_t i = 0; i < descriptors.size(); ++i) {
-        const std::uint32_t label = clustering.label[i];
-        ++size[label];
-        for (std::size_t k = 0; k < Dimension; ++k) {
-            const float value = descriptors.row(i)[k];
-            means.row(label)[k] += value;
-            sq_length[label] += double(value) * value;
-        }
-    }
+    const Clusters points{.dimension = Dimension};
+    const auto [clusters, clustering] = add_points(points, descriptors.values(), max_sq_distance, threads);
     Codebook<Dimension> codebook{
         .words = {}, .mean_sq_length = {}, .group = {}, .max_sq_distance = max_sq_distance};
-    std::size_t largest = 0;
-    for (std::uint32_t label = 0; label < clustering.count; ++label) {
-        largest = std::max(largest, size[label]);
-        if (size[label] < min_cluster_size) continue;
-        for (float& value : means.row(label)) value /= static_cast<float>(size[label]);
-        codebook.words.push_back(means.row(label));
-        codebook.mean_sq_length.push_back(static_cast<float>(sq_length[label] / double(size[label])));
-        codebook.group.push_back(group);
+    std::uint32_t largest = 0;
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+        largest = std::max(largest, clusters.sizes[c]);
+        if (clusters.sizes[c] >= min_cluster_size) detail::add_word(codebook, clusters, c, group);
     }
     expect(codebook.size() > 0, "codebook",
            join_text("a cluster of at least ", min_cluster_size, " features"),

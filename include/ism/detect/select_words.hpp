@@ -72,6 +72,7 @@ template <Detector D, Descriptor Desc>
         kept.codebook.words.push_back(model.codebook.words.row(w));
         kept.codebook.mean_sq_length.push_back(model.codebook.mean_sq_length[w]);
         kept.codebook.group.push_back(model.codebook.group[w]);
+        kept.codebook.sizes.push_back(model.codebook.sizes[w]);
         const auto own = model.shapes.of_word(w);
         kept.shapes.occurrences.insert(kept.shapes.occurrences.end(), own.begin(), own.end());
         kept.shapes.first.push_back(static_cast<std::uint32_t>(kept.shapes.occurrences.size()));

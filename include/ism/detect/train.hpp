@@ -88,6 +88,7 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
             codebook.words.push_back(words.words.row(w));
             codebook.mean_sq_length.push_back(words.mean_sq_length[w]);
             codebook.group.push_back(group);
+            codebook.sizes.push_back(words.sizes[w]);
         }
     }
     return codebook;

@@ -37,7 +37,7 @@ struct ModelInfo {
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 3;
+inline constexpr std::int64_t model_format_version = 4;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {
@@ -91,6 +91,7 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
     const auto numbers = values<Scalar>(file, "words", {words, Dimension});
     const auto lengths = values<float>(file, "mean_sq_length", {words});
     const auto groups = values<std::uint32_t>(file, "group", {words});
+    const auto sizes = values<std::uint32_t>(file, "word_sizes", {words});
     Codebook<Dimension, Scalar> codebook;
     codebook.words = Descriptors<Scalar, Dimension>(words);
     codebook.max_sq_distance = metadata_number(file, "max_sq_distance");
@@ -106,9 +107,12 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
     for (const std::uint32_t group : groups)
         expect<FileError>(group < classes, file.source + ": group of a word", join_text("below ", classes),
                           group);
+    for (const std::uint32_t size : sizes)
+        expect<FileError>(size > 0, file.source + ": word_sizes", "1 or more", size);
     std::copy(numbers.begin(), numbers.end(), codebook.words.values().begin());
     codebook.mean_sq_length.assign(lengths.begin(), lengths.end());
     codebook.group.assign(groups.begin(), groups.end());
+    codebook.sizes.assign(sizes.begin(), sizes.end());
     return codebook;
 }
 
@@ -122,7 +126,7 @@ void save_model(const std::filesystem::path& path, const Model<D, Desc>& model) 
     using detail::Json;
     TensorFile file{.source = detail::file_text(path)};
     // A member that is added to Codebook does not compile here until it is kept too.
-    [[maybe_unused]] const auto& [rows, lengths, groups, max_sq_distance] = model.codebook;
+    [[maybe_unused]] const auto& [rows, lengths, groups, max_sq_distance, sizes] = model.codebook;
     const std::size_t words = model.codebook.size();
     expect<FileError>(words > 0 && model.shapes.first.size() == words + 1, file.source + ": word ranges",
                       words + 1, model.shapes.first.size());
@@ -146,6 +150,7 @@ void save_model(const std::filesystem::path& path, const Model<D, Desc>& model) 
         make_tensor<typename Desc::Scalar>(model.codebook.words.values(), {words, Desc::dimension});
     file.tensors["mean_sq_length"] = make_tensor<float>(model.codebook.mean_sq_length, {words});
     file.tensors["group"] = make_tensor<std::uint32_t>(model.codebook.group, {words});
+    file.tensors["word_sizes"] = make_tensor<std::uint32_t>(model.codebook.sizes, {words});
     detail::shapes_to_tensors(model.shapes, file);
     write_safetensors(path, file);
 }
