@@ -187,12 +187,14 @@ template <Detector D, Descriptor Desc>
 /// @brief How features are collected from training images.
 struct HarvestOptions {
     std::size_t max_features = 40000;  ///< of all objects together; each gives its strongest, at least 30
+    bool choose_upsampling = true;     ///< small objects are enlarged; false: as the extractor says
     unsigned threads = 0;              ///< 0 = all the machine has
     Progress progress = {};
 };
 
 /// @brief Finds and describes the features on the objects of `count` images that `source` gives. Small
-/// objects are enlarged before. `source` is called twice for each image, from several threads.
+/// objects are enlarged before, unless `choose_upsampling` is off. `source` is called twice for each image,
+/// from several threads.
 /// @param class_names  names of the classes that LabelledObject::class_index points to
 /// @throws Error where an image cannot be learnt from, or a class has no object or no feature.
 template <Detector D, Descriptor Desc, TrainingSource Source>
@@ -234,7 +236,7 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
                          .first_object = {0},
                          .seen = {},
                          .descriptors = {}};
-    all.extractor.options.upsampling *= detail::choose_upsampling(sizes_px);
+    if (options.choose_upsampling) all.extractor.options.upsampling *= detail::choose_upsampling(sizes_px);
 
     const std::size_t most_an_object = std::max<std::size_t>(30, options.max_features / sizes_px.size());
     done = 0;
