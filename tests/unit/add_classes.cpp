@@ -116,6 +116,36 @@ TEST_CASE("examples of a class that the model has join it by name") {
     CHECK(model.shapes.of_word(0).back().weight == Approx(5.0 / 7));
 }
 
+TEST_CASE("a model with memory has at words that are new what looked like them before") {
+    Harvest harvest = harvest_of({"a"});
+    for (const std::uint8_t value : {9, 11, 14, 99, 101}) see(harvest, 0, 0, value);
+    ism::TrainOptions options = alike(6);
+    options.memory = true;
+    const Model before = ism::learn(harvest, options);
+    REQUIRE(before.codebook.size() == 2);
+    CHECK(before.memory.size() == 5);
+    Harvest added = harvest_of({"b"});
+    for (const std::uint8_t value : {18, 19, 18}) see(added, 0, 0, value);
+    const Model model = ism::grow_model(before, added).model;
+    REQUIRE(model.codebook.size() == 3);
+    CHECK(model.memory.size() == 8);
+    // 14 is four or five from the new word, 11 more than six
+    const auto of_new = model.shapes.of_word(2);
+    REQUIRE(of_new.size() == 4);
+    CHECK((of_new[0].x == 14 && of_new[0].class_index == 0 && of_new[0].object == 0));
+    CHECK(of_new[1].class_index == 1);
+    // ... and is at its old word still
+    CHECK(model.shapes.of_word(0).size() == before.shapes.of_word(0).size());
+    Model bad = before;
+    bad.memory.resize(1);
+    CHECK_THROWS_WITH(ism::grow_model(bad, added), Catch::Contains("below the 1 that are kept"));
+
+    Model forgetful = before;
+    forgetful.memory = {};
+    CHECK(ism::grow_model(forgetful, added).model.shapes.of_word(2).size() == 3);
+    CHECK(ism::grow_model(forgetful, added).model.memory.empty());
+}
+
 TEST_CASE("features like no word and too few for one change nothing but the lists of classes and objects") {
     const Model before = two_words();
     Harvest added = harvest_of({"b"});

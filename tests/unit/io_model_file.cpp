@@ -74,6 +74,7 @@ void check_equal(const M& a, const M& b) {
         return std::vector<float>(words.values().begin(), words.values().end());
     };
     CHECK(same_bytes(bytes(a.codebook.words), bytes(b.codebook.words)));
+    CHECK(same_bytes(bytes(a.memory), bytes(b.memory)));
     CHECK(same_bytes(a.codebook.mean_sq_length, b.codebook.mean_sq_length));
     CHECK(a.codebook.group == b.codebook.group);
     CHECK(a.codebook.sizes == b.codebook.sizes);
@@ -152,6 +153,18 @@ TEST_CASE("Models come back bit for bit, whatever their detector and descriptor"
     dense.extractor.detector = {.spacing = 3.3f, .margin = 1, .first_scale = 1.5f, .scale_count = 2};
     const auto dense_read = round_trip(dense).extractor.detector;
     CHECK((dense_read.spacing == 3.3f && dense_read.first_scale == 1.5f && dense_read.scale_count == 2));
+}
+
+TEST_CASE("A model file keeps the descriptors of training features") {
+    auto model = random_model<ism::DenseGrid, ism::RootSift>();
+    model.memory = ism::Descriptors<float, 128>(140);
+    for (std::size_t i = 0; i < model.memory.values().size(); ++i) model.memory.values()[i] = float(i) / 7;
+    CHECK(round_trip(model).memory.size() == 140);
+    const TemporaryFolder folder;
+    model.memory.resize(3);
+    ism::save_model(folder / "m", model);
+    CHECK_THROWS_WITH((ism::load_model<ism::DenseGrid, ism::RootSift>(folder / "m")),
+                      Catch::Contains("feature of an occurrence: expected below the 3 that are kept"));
 }
 
 TEST_CASE("A model file tells what is in it") {

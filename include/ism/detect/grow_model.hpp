@@ -8,7 +8,6 @@
 #include <numeric>
 #include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "ism/core/random.hpp"
 #include "ism/detect/harvest.hpp"
 #include "ism/detect/model.hpp"
+#include "ism/detect/move_occurrences.hpp"
 #include "ism/detect/train.hpp"
 
 namespace ism {
@@ -38,30 +38,6 @@ struct GrownModel {
 };
 
 namespace detail {
-
-/// An occurrence and its word.
-struct WordOccurrence {
-    std::uint32_t word = 0;
-    Occurrence occurrence;
-};
-
-/// Sets the occurrences of `words` words. Of a feature that is at a word twice, as where two words of before
-/// are one, the first stays.
-inline void set_occurrences(Shapes& shapes, std::vector<WordOccurrence> all, std::size_t words) {
-    const auto place = [](const WordOccurrence& o) { return std::tuple(o.word, o.occurrence.feature); };
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const auto& a, const auto& b) { return place(a) < place(b); });
-    all.erase(std::unique(all.begin(), all.end(),
-                          [&](const auto& a, const auto& b) { return place(a) == place(b); }),
-              all.end());
-    shapes.occurrences.clear();
-    shapes.first.assign(words + 1, 0);
-    for (const WordOccurrence& o : all) {
-        shapes.occurrences.push_back(o.occurrence);
-        ++shapes.first[o.word + 1];
-    }
-    std::partial_sum(shapes.first.begin(), shapes.first.end(), shapes.first.begin());
-}
 
 /// The index of each name in `names`, which it is put into where it is not.
 [[nodiscard]] inline std::vector<std::uint32_t> join_names(std::vector<std::string>& names,
@@ -94,6 +70,9 @@ void check_growth(const Model<D, Desc>& model, const Harvest<D, Desc>& added, co
         expect(o.object < added.objects.size(), "growing a model: object of a feature",
                join_text("below ", added.objects.size()), o.object);
     }
+    for (const Occurrence& o : model.shapes.occurrences)
+        expect(model.memory.empty() || o.feature < model.memory.size(), "growing a model: feature",
+               join_text("below the ", model.memory.size(), " that are kept"), o.feature);
     for (const std::uint32_t group : model.codebook.group)
         expect(group == 0, "growing a model: its codebook", "a joint one", "one of words for each class");
 }
@@ -102,8 +81,9 @@ void check_growth(const Model<D, Desc>& model, const Harvest<D, Desc>& added, co
 
 /// @brief Teaches a model more objects, of new classes or of classes it has (the same names), without the
 /// images it was trained with. New features grow the codebook (see grow_codebook()) and are matched to all
-/// words; occurrences of before move with their words, but are not matched again to words that changed or are
-/// new: that is what is lost against training with all images at once. Weights are taken again.
+/// words. Features of before are matched again where the model has kept their descriptors
+/// (TrainOptions::memory). Else their occurrences move with their words, but none is at a new word, so that
+/// new classes win too often. Weights are taken again.
 /// @param added  from harvest() with the model's extractor and `choose_upsampling` off
 /// @throws Error where there is no new object or the codebook is not joint.
 template <Detector D, Descriptor Desc>
@@ -123,13 +103,9 @@ template <Detector D, Descriptor Desc>
     Shapes shapes = model.shapes;
     shapes.appearance = {};
     std::vector<std::uint32_t> class_now = detail::join_names(shapes.class_names, added.class_names);
-    std::vector<detail::WordOccurrence> all;
-    std::uint32_t features = 0;
-    for (std::uint32_t w = 0; w < model.codebook.size(); ++w)
-        for (const Occurrence& o : model.shapes.of_word(w)) {
-            all.push_back({grown.word_now[w], o});
-            features = std::max(features, o.feature + 1);
-        }
+    auto all = detail::moved_occurrences(model, grown.word_now, grown.codebook, options.threads);
+    std::uint32_t features = static_cast<std::uint32_t>(model.memory.size());
+    for (const Occurrence& o : model.shapes.occurrences) features = std::max(features, o.feature + 1);
     for (const Match& match : match(grown.codebook, added.descriptors, options.threads)) {
         Occurrence o = added.seen[match.feature];
         o.class_index = class_now[o.class_index];
@@ -143,11 +119,17 @@ template <Detector D, Descriptor Desc>
     }
     detail::set_occurrences(shapes, std::move(all), grown.codebook.size());
     detail::weigh_occurrences(shapes);
-    return {.model = {.extractor = model.extractor,
-                      .codebook = std::move(grown.codebook),
-                      .shapes = std::move(shapes)},
-            .word_now = std::move(grown.word_now),
-            .class_now = std::move(class_now)};
+    GrownModel<D, Desc> result{.model = {.extractor = model.extractor,
+                                         .codebook = std::move(grown.codebook),
+                                         .shapes = std::move(shapes)},
+                               .word_now = std::move(grown.word_now),
+                               .class_now = std::move(class_now)};
+    if (!model.memory.empty()) {
+        result.model.memory = model.memory;
+        for (std::size_t i = 0; i < added.descriptors.size(); ++i)
+            result.model.memory.push_back(added.descriptors.row(i));
+    }
+    return result;
 }
 
 }  // namespace ism

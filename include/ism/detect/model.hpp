@@ -15,6 +15,9 @@ struct Model {
     Extractor<D, Desc> extractor;
     Codebook<Desc::dimension, typename Desc::Scalar> codebook;  ///< of bytes for descriptors of bytes
     Shapes shapes;
+    /// Descriptors of the training features, by Occurrence::feature; empty = not kept. Only growing needs
+    /// them: see grow_model().
+    Descriptors<typename Desc::Scalar, Desc::dimension> memory = {};
 };
 
 }  // namespace ism

@@ -63,7 +63,7 @@ template <Detector D, Descriptor Desc>
     expect(!chosen.empty(), "words to keep", "1 or more", 0);
     expect(model.shapes.appearance.empty(), "words to keep", "a model without a judge of boxes",
            "one with a judge, which has to be learnt after");
-    Model<D, Desc> kept{.extractor = model.extractor, .codebook = {}, .shapes = {}};
+    Model<D, Desc> kept{.extractor = model.extractor, .codebook = {}, .shapes = {}, .memory = model.memory};
     kept.codebook.max_sq_distance = model.codebook.max_sq_distance;
     kept.shapes.class_names = model.shapes.class_names;
     kept.shapes.objects = model.shapes.objects;

@@ -39,6 +39,7 @@ struct TrainOptions {
     std::size_t max_cluster_features =
         30000;               ///< of more features a random part is clustered; all are matched
     std::uint64_t seed = 1;  ///< chooses that part
+    bool memory = false;     ///< also keep the descriptors, so that the model can grow well: see Model
     bool appearance = true;  ///< also learn what boxes of each class hold, to judge hypotheses
     unsigned threads = 0;    ///< 0 = all the machine has
     Progress progress = {};
@@ -161,6 +162,7 @@ template <Detector D, Descriptor Desc>
     Model<D, Desc> model{.extractor = harvest.extractor,
                          .codebook = words,
                          .shapes = detail::shapes_of(harvest, std::move(matches), words.size())};
+    if (options.memory) model.memory = harvest.descriptors;
     if (options.min_information_gain > 0) {
         const auto gain = word_worth(model.shapes, WordMeasure::information_gain);
         const double best = *std::max_element(gain.begin(), gain.end());

@@ -116,6 +116,23 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
     return codebook;
 }
 
+/// The descriptors of training features, where they were kept, one by one checked.
+template <std::size_t Dimension, DescriptorScalar Scalar>
+[[nodiscard]] Descriptors<Scalar, Dimension> memory_from_tensor(const TensorFile& file,
+                                                                const Shapes& shapes) {
+    if (!file.tensors.contains("memory")) return {};
+    const auto numbers = values<Scalar>(file, "memory", {any_length, Dimension});
+    for (const Scalar number : numbers)
+        expect<FileError>(std::isfinite(float(number)), file.source + ": memory", "finite numbers",
+                          float(number));
+    Descriptors<Scalar, Dimension> memory(numbers.size() / Dimension);
+    std::copy(numbers.begin(), numbers.end(), memory.values().begin());
+    for (const Occurrence& o : shapes.occurrences)
+        expect<FileError>(o.feature < memory.size(), file.source + ": feature of an occurrence",
+                          join_text("below the ", memory.size(), " that are kept"), o.feature);
+    return memory;
+}
+
 }  // namespace detail
 
 /// @brief Writes a model as a safetensors file, at one stroke. The same model gives the same bytes.
@@ -151,6 +168,9 @@ void save_model(const std::filesystem::path& path, const Model<D, Desc>& model) 
     file.tensors["mean_sq_length"] = make_tensor<float>(model.codebook.mean_sq_length, {words});
     file.tensors["group"] = make_tensor<std::uint32_t>(model.codebook.group, {words});
     file.tensors["word_sizes"] = make_tensor<std::uint32_t>(model.codebook.sizes, {words});
+    if (!model.memory.empty())
+        file.tensors["memory"] =
+            make_tensor<typename Desc::Scalar>(model.memory.values(), {model.memory.size(), Desc::dimension});
     detail::shapes_to_tensors(model.shapes, file);
     write_safetensors(path, file);
 }
@@ -189,6 +209,7 @@ template <Detector D, Descriptor Desc>
     model.codebook = detail::codebook_from_tensors<Desc::dimension, typename Desc::Scalar>(
         file, info.words, info.class_names.size());
     model.shapes = detail::shapes_from_tensors(file, info.words);
+    model.memory = detail::memory_from_tensor<Desc::dimension, typename Desc::Scalar>(file, model.shapes);
     return model;
 }
 
