@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include "ism/detect/add_classes.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -8,9 +10,10 @@
 #include "support/catch.hpp"
 
 #include "ism/core/random.hpp"
-#include "ism/detect/grow_model.hpp"
+#include "ism/detect/detect.hpp"
 #include "ism/feature/gray_patch.hpp"
 #include "ism/feature/hessian_laplace.hpp"
+#include "ism/feature/sift.hpp"
 
 namespace {
 
@@ -67,6 +70,23 @@ Harvest random_harvest(std::vector<std::string> names, std::uint64_t seed) {
             value = std::uint8_t(std::lround(centre + 8 * random.uniform(-1, 1)));
     }
     return harvest;
+}
+
+/// A square of 80 px with the blobs of a pattern, on grey.
+ism::TrainingImage picture(std::uint64_t pattern, int left, int top) {
+    ism::Random random(pattern);
+    ism::TrainingImage image;
+    image.frame.gray = ism::GrayImage(180, 130, 0.5f);
+    for (int blob = 0; blob < 40; ++blob) {
+        const double x = left + random.uniform(8, 72), y = top + random.uniform(8, 72);
+        const double sigma = random.uniform(1.5, 5), height = random.uniform() < 0.5 ? -0.4 : 0.4;
+        for (int v = 0; v < 130; ++v)
+            for (int u = 0; u < 180; ++u)
+                image.frame.gray(u, v) += float(
+                    height * std::exp(-(std::pow(u - x, 2) + std::pow(v - y, 2)) / (2 * sigma * sigma)));
+    }
+    image.objects.push_back({0, {double(left), double(top), 80, 80}, {}});
+    return image;
 }
 
 }  // namespace
@@ -201,6 +221,40 @@ TEST_CASE("models of many features grow the same with 1 and 2 threads, and again
     CHECK(model.shapes.objects.size() == 8);
     const auto part = ism::grow_model(model, random_harvest({"f"}, 3), {.max_cluster_features = 100}).model;
     CHECK(part.codebook.size() >= model.codebook.size());
+}
+
+TEST_CASE("images of a new class are learnt and found, the same with 1 and 2 threads") {
+    using Sift = ism::Model<ism::HessianLaplace, ism::RootSift>;
+    const auto images_of = [](std::uint64_t pattern) {
+        std::vector<ism::TrainingImage> images;
+        for (int i = 0; i < 3; ++i) images.push_back(picture(pattern, 30 + 9 * i, 20 + 5 * i));
+        return images;
+    };
+    const std::vector<std::string> first = {"first"}, second = {"second"};
+    const auto before = ism::train<ism::HessianLaplace, ism::RootSift>(
+        first, images_of(1), {.memory = true, .appearance = true, .threads = 1});
+    const Sift model = ism::add_classes(before, second, images_of(2), {.threads = 1});
+    CHECK(model.shapes.class_names == std::vector<std::string>{"first", "second"});
+    REQUIRE(model.shapes.appearance.bias.size() == 2);
+    CHECK(model.shapes.appearance.bias[0] == before.shapes.appearance.bias[0]);
+    CHECK(model.extractor.options.upsampling == before.extractor.options.upsampling);
+    for (const std::uint64_t pattern : {1, 2}) {
+        const auto found = ism::detect<ism::Jism>(model, picture(pattern, 50, 24).frame, {.threads = 1});
+        REQUIRE_FALSE(found.objects.empty());
+        CHECK(found.objects[0].class_index == pattern - 1);
+    }
+    const Sift two = ism::add_classes(before, second, images_of(2), {.threads = 2});
+    CHECK(two.shapes.appearance.weights == model.shapes.appearance.weights);
+    CHECK(two.codebook.sizes == model.codebook.sizes);
+    CHECK(two.shapes.first == model.shapes.first);
+    // More examples of a class leave its judge as it is.
+    const Sift more = ism::add_classes(model, first, images_of(1));
+    CHECK(more.shapes.appearance.bias == model.shapes.appearance.bias);
+    CHECK(more.shapes.appearance.bins() == ism::Appearance::cells * more.codebook.size());
+    CHECK(ism::add_classes(before, second, images_of(2), {.appearance = false}).shapes.appearance.empty());
+    std::vector<ism::TrainingImage> none = images_of(2);
+    for (auto& image : none) image.objects.clear();
+    CHECK_THROWS_AS(ism::add_classes(before, second, none), ism::Error);
 }
 
 TEST_CASE("what cannot be added is refused") {

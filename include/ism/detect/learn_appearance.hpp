@@ -134,17 +134,18 @@ template <Detector D, Descriptor Desc>
     return samples;
 }
 
-}  // namespace detail
-
-/// @brief Learns what boxes of each class hold: from the labelled boxes, and from what the model finds in
-/// each training image when it has not seen its objects (leave one image out), background images included.
-/// @param first_object  image i has the objects first_object[i] … first_object[i + 1] − 1 of the model
-/// @param source        gives the images that the model was learnt from
+/// Those of all images; the same for any number of threads.
 template <Detector D, Descriptor Desc, TrainingSource Source>
-[[nodiscard]] Appearance learn_appearance(const Model<D, Desc>& model,
-                                          std::span<const std::uint32_t> first_object, const Source& source,
-                                          const AppearanceOptions& options = {}, unsigned threads = 0,
-                                          const Progress& progress = {}) {
+[[nodiscard]] std::vector<AppearanceSample> appearance_samples(const Model<D, Desc>& model,
+                                                               std::span<const std::uint32_t> first_object,
+                                                               const Source& source,
+                                                               const AppearanceOptions& options,
+                                                               unsigned threads, const Progress& progress) {
+    expect(first_object.size() > 1 && first_object.back() <= model.shapes.objects.size(),
+           "judge of boxes: where the objects of each image begin",
+           join_text("2 numbers or more, the last at most ", model.shapes.objects.size()),
+           join_text(first_object.size(), " numbers",
+                     first_object.empty() ? "" : join_text(", the last ", first_object.back())));
     const std::size_t images = first_object.size() - 1;
     const DetectOptions<Jism> search{.max_hypotheses = std::max<std::size_t>(3, options.max_samples / images),
                                      .threads = 1};
@@ -168,6 +169,22 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
     });
     std::vector<AppearanceSample> samples;
     for (auto& part : parts) std::move(part.begin(), part.end(), std::back_inserter(samples));
+    return samples;
+}
+
+}  // namespace detail
+
+/// @brief Learns what boxes of each class hold: from the labelled boxes, and from what the model finds in
+/// each training image when it has not seen its objects (leave one image out), background images included.
+/// @param first_object  image i has the objects first_object[i] … first_object[i + 1] − 1 of the model
+/// @param source        gives the images that the model was learnt from
+/// @throws Error where `first_object` does not fit the model.
+template <Detector D, Descriptor Desc, TrainingSource Source>
+[[nodiscard]] Appearance learn_appearance(const Model<D, Desc>& model,
+                                          std::span<const std::uint32_t> first_object, const Source& source,
+                                          const AppearanceOptions& options = {}, unsigned threads = 0,
+                                          const Progress& progress = {}) {
+    const auto samples = detail::appearance_samples(model, first_object, source, options, threads, progress);
     return fit_appearance(samples, model.codebook.size(), model.shapes.class_names.size(), options, threads);
 }
 
