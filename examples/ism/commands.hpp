@@ -34,6 +34,7 @@ struct TrainCommand {
     std::string detector{default_detector}, descriptor{default_descriptor};
     ism::TrainOptions options = {};
     bool skip_bad = false;
+    std::filesystem::path add_to = {};  ///< model that learns more; empty = a new one
 };
 
 /// How objects are searched for, whatever the vote space.

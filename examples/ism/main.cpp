@@ -74,6 +74,16 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
         ->check(CLI::IsMember({"occurrences", "gain", "agreement"}))
         ->default_str("agreement");
     app.add_option("--seed", command.options.seed, "of random choices")->capture_default_str();
+    CLI::Option* add_to = app.add_option("--add-to", command.add_to,
+                                         "model to teach more classes, or more examples of its classes; its "
+                                         "features and similarity stay; see --growable");
+    for (const char* fixed : {"--detector", "--descriptor", "--codebook", "--similarity",
+                              "--min-information-gain", "--max-words", "--best-words"})
+        add_to->excludes(app.get_option(fixed));
+    CLI::Option* growable =
+        app.add_flag("--growable", command.options.memory,
+                     "keep all descriptors, so that --add-to loses little; a larger file");
+    add_to->excludes(growable);
     add_threads(app, command.options.threads);
     add_skip_bad(app, command.skip_bad);
     app.callback([&command] { program::run_train(command); });

@@ -37,6 +37,7 @@ using AnyModel =
 struct Lessons {
     const ism::Dataset& dataset;
     ism::TrainOptions options;
+    std::filesystem::path add_to = {};  ///< model that learns more; empty = a new one
 };
 
 /// Finds the features of a picture and matches them to words: one picture at a time.

@@ -9,6 +9,7 @@
 #include "input.hpp"
 #include "models.hpp"
 
+#include "ism/detect/add_classes.hpp"
 #include "ism/detect/frame_matcher.hpp"
 #include "ism/io/model_file.hpp"
 #include "ism/io/write_file.hpp"
@@ -24,6 +25,13 @@ ism::Model<D, Desc> learn(const Lessons& lessons) {
         image.name = short_name(set, set.images[i]);
         return image;
     };
+    if (!lessons.add_to.empty())
+        return ism::add_classes(ism::load_model<D, Desc>(lessons.add_to), set.class_names, set.images.size(),
+                                source,
+                                {.min_cluster_size = lessons.options.min_cluster_size,
+                                 .seed = lessons.options.seed,
+                                 .threads = lessons.options.threads,
+                                 .progress = lessons.options.progress});
     return ism::train<D, Desc>(set.class_names, set.images.size(), source, lessons.options);
 }
 

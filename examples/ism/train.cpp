@@ -10,12 +10,18 @@
 #include "progress.hpp"
 
 #include "ism/io/coco.hpp"
+#include "ism/io/model_file.hpp"
 
 namespace program {
 
 void run_train(const TrainCommand& command) {
     const Stopwatch watch;
-    check_output(command.model, std::array{command.data});
+    check_output(command.model, std::array{command.data, command.add_to});
+    std::string detector = command.detector, descriptor = command.descriptor;
+    if (!command.add_to.empty()) {
+        const ism::ModelInfo info = ism::read_model_info(command.add_to);
+        detector = info.detector, descriptor = info.descriptor;
+    }
     ism::Dataset dataset = ism::read_dataset(command.data);
     if (!command.classes.empty()) dataset = ism::select_classes(dataset, command.classes);
     const std::size_t skipped =
@@ -26,19 +32,19 @@ void run_train(const TrainCommand& command) {
         });
 
     ProgressLine progress;
-    Lessons lessons{.dataset = dataset, .options = command.options};
+    Lessons lessons{.dataset = dataset, .options = command.options, .add_to = command.add_to};
     lessons.options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
         progress.tell(stage, done, total);
     };
-    const AnyModel model = learn_any(command.detector, command.descriptor, lessons);
+    const AnyModel model = learn_any(detector, descriptor, lessons);
     save_any(command.model, model);
     progress.clear();
 
     const ism::Shapes& shapes = shapes_of(model);
     std::set<std::uint32_t> features;
     for (const ism::Occurrence& o : shapes.occurrences) features.insert(o.feature);
-    std::printf("model        %s (%s, %s)\n", command.model.string().c_str(), command.detector.c_str(),
-                command.descriptor.c_str());
+    std::printf("model        %s (%s, %s)\n", command.model.string().c_str(), detector.c_str(),
+                descriptor.c_str());
     std::printf("classes      %s\n", list_text(shapes.class_names).c_str());
     std::printf("images       %zu\n", dataset.images.size());
     if (skipped > 0) std::printf("skipped      %zu\n", skipped);
