@@ -74,7 +74,9 @@ using Detector = ism::FrameDetector<HessianLaplace, RootSift>;
     const char* names[] = {"one joint model", "a model a class"};
     double low = 1e9, high = -1e9;
     for (int kind = 0; kind < 2; ++kind) {
-        ism::PlotCurve curve{.name = names[kind], .color = ism::class_color(std::size_t(kind))};
+        ism::PlotCurve curve{.name = ism::join_text(names[kind], ": classes to the power ",
+                                                    bench::number(exponent(points, 16, kind))),
+                             .color = ism::class_color(std::size_t(kind))};
         for (const Point& p : points)
             if (p.ms[kind] > 0) {
                 curve.x.push_back(std::log2(double(p.classes)));
