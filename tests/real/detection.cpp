@@ -62,7 +62,7 @@ TEST_CASE("uiuc-cars: equal error rate by the official rule") {
     if (!train || !test) return;
     const auto result = evaluated<ism::Jism>(trained_on(ism::read_dataset(*train)), ism::read_dataset(*test),
                                              ism::UiucRule{});
-    CHECK(result.mean.eer >= 0.93);
+    CHECK(result.mean.eer >= 0.96);
 }
 
 TEST_CASE("weizmann-horses: masks and detection") {
@@ -71,7 +71,7 @@ TEST_CASE("weizmann-horses: masks and detection") {
     if (!train || !val) return;
     const auto result = evaluated<ism::Jism>(trained_on(ism::read_dataset(*train)), ism::read_dataset(*val));
     CHECK(result.mean.mask_iou >= 0.6);
-    CHECK(result.mean.eer >= 0.82);
+    CHECK(result.mean.eer >= 0.83);
 }
 
 TEST_CASE("four-class: classification by the joint model") {
@@ -81,7 +81,7 @@ TEST_CASE("four-class: classification by the joint model") {
     const auto result = evaluated<ism::Jism>(trained_on(ism::read_dataset(*train)), ism::read_dataset(*test));
     REQUIRE(result.confusion);
     // 79 images: another order of the same training features moves this by up to five points
-    CHECK(result.confusion->accuracy() >= 0.76);
+    CHECK(result.confusion->accuracy() >= 0.85);
 }
 
 TEST_CASE("osd: flat and depth spaces with one model") {
