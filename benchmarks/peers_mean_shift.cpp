@@ -83,7 +83,7 @@ template <std::size_t D>
     using K = ism::EpanechnikovKernel;
     const std::span<const ism::Vote<D>> all(votes);
     const auto bandwidth = fixed_bandwidth<D>();
-    const ism::MeanShiftOptions options;
+    const ism::MeanShiftOptions options{.max_iterations = 500};  // to rest: else both stop on their way
     ism::StartBins<D> bins;
     const auto starts = bins.find(all, bandwidth, options.max_starts, options.min_start);
     std::vector<ism::Mode<D>> ours, peer;
