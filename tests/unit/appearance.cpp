@@ -43,9 +43,11 @@ TEST_CASE("a word histogram is the roots of shares, whole and by quarters") {
 }
 
 TEST_CASE("a judge's probability is the logistic function of its sum") {
-    const ism::Appearance judge{.weights = {0, 0, 0, 0, 0, 1, 2, 3, 4, 5}, .bias = {0, -1}};
-    const std::vector<ism::HistogramBin> box{{1, 0.5f}, {4, 0.25f}};
-    CHECK(judge.bins() == 5);
+    ism::Appearance judge;
+    judge.push_back({}, 0);
+    judge.push_back(std::vector<ism::BinValue>{{0, 1}, {1, 2}, {3, 7}, {4, 5}, {9, 8}}, -1);
+    const std::vector<ism::BinValue> box{{1, 0.5f}, {2, 0.125f}, {4, 0.25f}, {12, 1}};
+    CHECK(judge.classes() == 2);
     CHECK(judge.probability(0, box) == Approx(0.5));
     CHECK(judge.probability(1, box) == Approx(1 / (1 + std::exp(-(-1 + 0.5 * 2 + 0.25 * 5)))));
     CHECK(ism::Appearance{}.probability(7, box) == 1);
@@ -66,7 +68,6 @@ TEST_CASE("fitted judges sit where the loss has no slope, and tell classes and b
     }
     const ism::AppearanceOptions options{.regularisation = 1e-2, .iterations = 3000};
     const auto judge = ism::fit_appearance(samples, words, 2, options, 1);
-    REQUIRE(judge.bins() == ism::Appearance::cells * words);
     for (std::size_t c = 0; c < 2; ++c) {
         double right = 0, wrong = 0;
         std::vector<double> slope(words + 1, 0);
@@ -83,14 +84,43 @@ TEST_CASE("fitted judges sit where the loss has no slope, and tell classes and b
             for (std::uint32_t w = 0; w < words; ++w) slope[w] += error * double(s.box[w].value);
             slope[words] += error;
         }
-        for (std::size_t w = 0; w < words; ++w)
-            CHECK(std::abs(slope[w] + options.regularisation * double(judge.weights[c * judge.bins() + w])) <
-                  1e-4);
+        REQUIRE(judge.of_class(c).size() == words);
+        for (std::size_t w = 0; w < words; ++w) {
+            CHECK(judge.of_class(c)[w].bin == w);
+            CHECK(std::abs(slope[w] + options.regularisation * double(judge.of_class(c)[w].value)) < 1e-4);
+        }
         CHECK(std::abs(slope[words]) < 1e-4);
     }
     const auto two_threads = ism::fit_appearance(samples, words, 2, options, 2);
     CHECK(two_threads.weights == judge.weights);
     CHECK(two_threads.bias == judge.bias);
+}
+
+TEST_CASE("a judge sees the bins of its own boxes and an even part of the others") {
+    constexpr auto background = AppearanceSample::background;
+    std::vector<AppearanceSample> samples = {
+        {.box = {{1, 1}}, .shows = 0, .taken_for = 0},
+        {.box = {{2, 0.5f}, {9, 0.5f}}, .shows = background, .taken_for = 0},
+        {.box = {{1, 0.5f}, {3, 0.5f}}, .shows = 1, .taken_for = 0},
+        {.box = {{4, 1}}, .shows = background, .taken_for = 1},
+    };
+    for (std::uint32_t i = 0; i < 9; ++i)
+        samples.push_back({.box = {{1, float(i + 1)}, {4, 1}}, .shows = 1 + i % 2, .taken_for = 1});
+    const auto lessons = ism::detail::judge_lessons(samples, 2, 0, 3);
+    CHECK(lessons.bins == std::vector<std::uint32_t>{1, 2, 3, 9});
+    REQUIRE(lessons.rows() == 6);
+    CHECK(lessons.shows == std::vector<bool>{true, false, false, false, false, false});
+    const std::vector<std::vector<ism::BinValue>> expected = {
+        {{0, 1}}, {{1, 0.5f}, {3, 0.5f}}, {{0, 0.5f}, {2, 0.5f}}, {{0, 1}}, {{0, 4}}, {{0, 7}}};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const auto row = lessons.row(i);
+        CHECK(std::vector<ism::BinValue>(row.begin(), row.end()) == expected[i]);
+    }
+    CHECK(ism::detail::judge_lessons(samples, 2, 0, 100).rows() == 12);
+    CHECK(ism::detail::judge_lessons(samples, 2, 0, 0).rows() == 3);
+    CHECK(ism::detail::judge_lessons(samples, 2, 5, 3).bins.empty());  // nothing shows this class
+    CHECK_THROWS_WITH(ism::fit_appearance(samples, 1, 2),
+                      "judge of boxes: bin of a sample: expected below 5, got 9");
 }
 
 TEST_CASE("shapes without objects: the others of a word say what these said") {

@@ -57,9 +57,12 @@ ism::Model<D, Desc> random_model(std::size_t words = 5, std::size_t each = 4, in
                                                 i % 3, 17 * i});
     }
     model.shapes.first.push_back(std::uint32_t(model.shapes.occurrences.size()));
-    for (std::size_t i = 0; i < 2 * ism::Appearance::cells * words; ++i)
-        model.shapes.appearance.weights.push_back(number());
-    model.shapes.appearance.bias = {number(), number()};
+    for (const std::uint32_t step : {1u, 3u}) {
+        std::vector<ism::BinValue> weights;
+        for (std::uint32_t bin = 0; bin < ism::Appearance::cells * words; bin += step)
+            weights.push_back({bin, number()});
+        model.shapes.appearance.push_back(weights, number());
+    }
     return model;
 }
 
@@ -81,6 +84,7 @@ void check_equal(const M& a, const M& b) {
     CHECK(a.codebook.max_sq_distance == b.codebook.max_sq_distance);
     CHECK(a.shapes.class_names == b.shapes.class_names);
     CHECK(a.shapes.first == b.shapes.first);
+    CHECK(a.shapes.appearance.first == b.shapes.appearance.first);
     CHECK(same_bytes(a.shapes.appearance.weights, b.shapes.appearance.weights));
     CHECK(same_bytes(a.shapes.appearance.bias, b.shapes.appearance.bias));
     CHECK(same_bytes(a.shapes.occurrences, b.shapes.occurrences));
@@ -183,7 +187,7 @@ TEST_CASE("A model file tells what is in it") {
     CHECK(info.upsampling == 1.75);
     CHECK(info.max_sq_distance == 0.1);
     CHECK(info.reference_size_px == ism::reference_size_px);
-    CHECK(info.format_version == 4);
+    CHECK(info.format_version == 5);
     CHECK(info.parameters.find("\"alpha\"") != std::string::npos);
 }
 
@@ -252,13 +256,22 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {", object 0: mask size", [](File& f) { set(f, "mask_sizes", 0, 4000000000u); }},
         {", object 0: mask cells", [](File& f) { set(f, "mask_sizes", 0, 1000000u); }},
         {", object 0: mask run", [](File& f) { set(f, "mask_runs", 0, std::uint8_t(0)); }},
+        {": appearance_first: expected rising numbers",
+         [](File& f) { set(f, "appearance_first", 1, 9999u); }},
+        {": appearance_first: expected 0 to", [](File& f) { set(f, "appearance_first", 2, 1u); }},
+        {": appearance_bins: expected rising numbers below",
+         [](File& f) { set(f, "appearance_bins", 2, 1u); }},
+        {": appearance_bins: expected rising numbers below",
+         [](File& f) { set(f, "appearance_bins", 3, 4000000000u); }},
+        {": appearance: expected finite", [&](File& f) { set(f, "appearance_weights", 3, infinity); }},
+        {": appearance: expected finite", [&](File& f) { set(f, "appearance_bias", 0, infinity); }},
         {": image names: expected 3, got 1", [](File& f) { f.metadata["images"] = R"(["a"])"; }},
         {": class names: expected each once", [](File& f) { f.metadata["class_names"] = R"(["a","a"])"; }},
         {": class names: expected 1 or more", [](File& f) { f.metadata["class_names"] = "[]"; }},
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": max_sq_distance: expected 0 or more", [](File& f) { f.metadata["max_sq_distance"] = "-1"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 4, got 1", [](File& f) { f.metadata["format_version"] = "1"; }},
+        {": format version: expected 5, got 1", [](File& f) { f.metadata["format_version"] = "1"; }},
         {": expected metadata 'parameters'", [](File& f) { f.metadata.erase("parameters"); }},
         {", parameters: extraction", [](File& f) { f.metadata["parameters"] = "{}"; }},
         {": expected a tensor 'mask_runs'", [](File& f) { f.tensors.erase("mask_runs"); }},

@@ -120,8 +120,14 @@ TEST_CASE("a model keeps the chosen words with their occurrences") {
     CHECK(kept.shapes.first == std::vector<std::uint32_t>{0, 2, 6});
     CHECK(kept.shapes.of_word(1)[3].object == 3);
     CHECK(kept.shapes.objects.size() == 4);
+    for (std::size_t w = 0; w < 2; ++w) {
+        double sum = 0;
+        for (const ism::Occurrence& o : kept.shapes.of_word(w)) sum += double(o.weight);
+        CHECK(sum == Approx(1));  // also where a feature was at words that are gone
+    }
     CHECK_THROWS_AS(ism::keep_words(model, std::span<const std::uint32_t>()), ism::Error);
     Model judged = model;
-    judged.shapes.appearance.bias = {0, 0};
+    judged.shapes.appearance.push_back({}, 0);
+    judged.shapes.appearance.push_back({}, 0);
     CHECK_THROWS_AS(ism::keep_words(judged, chosen), ism::Error);
 }

@@ -26,8 +26,7 @@ namespace detail {
 /// Shapes as if the objects first … end − 1 had not been seen: what they said of a word others say.
 [[nodiscard]] inline Shapes without_objects(Shapes shapes, std::size_t first, std::size_t end) {
     for (std::size_t w = 0; w + 1 < shapes.first.size(); ++w) {
-        const auto own =
-            std::span(shapes.occurrences).subspan(shapes.first[w], shapes.first[w + 1] - shapes.first[w]);
+        const std::span<Occurrence> own = shapes.of_word(w);
         double all = 0, rest = 0;
         for (Occurrence& o : own) {
             all += o.weight;

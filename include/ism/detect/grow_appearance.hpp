@@ -18,24 +18,33 @@ namespace ism {
 /// did on average; words that are new say nothing.
 /// @param word_now  of each word of before
 /// @param words     of the codebook now
-/// @throws Error where the judge is not one of so many words.
+/// @throws Error where the judge has bins of other words, or there are fewer words now than `word_now` tells.
 [[nodiscard]] inline Appearance moved_appearance(const Appearance& before,
                                                  std::span<const std::uint32_t> word_now, std::size_t words) {
-    if (before.empty()) return {};
-    expect(before.bins() == Appearance::cells * word_now.size(), "judge of boxes: bins",
-           Appearance::cells * word_now.size(), before.bins());
     std::vector<float> became(words, 0);
     for (const std::uint32_t w : word_now) {
         expect(w < words, "judge of boxes: word now", join_text("below ", words), w);
         ++became[w];
     }
-    const std::size_t bins = Appearance::cells * words;
-    Appearance now{.weights = std::vector<float>(before.bias.size() * bins, 0), .bias = before.bias};
-    for (std::size_t c = 0; c < before.bias.size(); ++c)
-        for (std::size_t cell = 0; cell < Appearance::cells; ++cell)
-            for (std::size_t w = 0; w < word_now.size(); ++w)
-                now.weights[c * bins + cell * words + word_now[w]] +=
-                    before.weights[c * before.bins() + cell * word_now.size() + w] / became[word_now[w]];
+    Appearance now;
+    for (std::size_t c = 0; c < before.classes(); ++c) {
+        std::vector<BinValue> own, joined;
+        for (const BinValue& weight : before.of_class(c)) {
+            const std::size_t cell = weight.bin / word_now.size();
+            expect(cell < Appearance::cells, "judge of boxes: bin",
+                   join_text("below ", Appearance::cells * word_now.size()), weight.bin);
+            const std::uint32_t word = word_now[weight.bin % word_now.size()];
+            own.push_back({static_cast<std::uint32_t>(cell * words + word), weight.value / became[word]});
+        }
+        std::stable_sort(own.begin(), own.end(),
+                         [](const BinValue& a, const BinValue& b) { return a.bin < b.bin; });
+        for (const BinValue& weight : own)
+            if (!joined.empty() && joined.back().bin == weight.bin)
+                joined.back().value += weight.value;
+            else
+                joined.push_back(weight);
+        now.push_back(joined, before.bias[c]);
+    }
     return now;
 }
 
@@ -46,9 +55,7 @@ namespace ism {
 [[nodiscard]] inline Appearance with_new_judges(Appearance present, std::vector<AppearanceSample> samples,
                                                 std::size_t words, std::size_t classes,
                                                 const AppearanceOptions& options = {}, unsigned threads = 0) {
-    const std::size_t known = present.bias.size();
-    expect(present.empty() || present.bins() == Appearance::cells * words, "judge of boxes: bins",
-           Appearance::cells * words, present.bins());
+    const std::size_t known = present.classes();
     expect(classes >= known, "judge of boxes: classes", join_text(known, " or more"), classes);
     // New classes are numbered from 0; all of before is one other class.
     const auto other = static_cast<std::uint32_t>(classes - known);
@@ -57,8 +64,7 @@ namespace ism {
     };
     for (AppearanceSample& sample : samples) renumber(sample.shows), renumber(sample.taken_for);
     const Appearance fresh = fit_appearance(samples, words, other, options, threads);
-    present.weights.insert(present.weights.end(), fresh.weights.begin(), fresh.weights.end());
-    present.bias.insert(present.bias.end(), fresh.bias.begin(), fresh.bias.end());
+    for (std::size_t c = 0; c < fresh.classes(); ++c) present.push_back(fresh.of_class(c), fresh.bias[c]);
     return present;
 }
 

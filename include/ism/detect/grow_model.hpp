@@ -17,6 +17,7 @@
 #include "ism/detect/harvest.hpp"
 #include "ism/detect/model.hpp"
 #include "ism/detect/move_occurrences.hpp"
+#include "ism/detect/set_occurrences.hpp"
 #include "ism/detect/train.hpp"
 
 namespace ism {

@@ -2,44 +2,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
 #include "ism/codebook/match.hpp"
 #include "ism/detect/model.hpp"
+#include "ism/detect/set_occurrences.hpp"
 #include "ism/vote/occurrence.hpp"
 
 namespace ism::detail {
-
-/// An occurrence and its word.
-struct WordOccurrence {
-    std::uint32_t word = 0;
-    Occurrence occurrence;
-};
-
-/// Sets the occurrences of `words` words. Of a feature that is at a word twice, as where two words of before
-/// are one, the first stays.
-inline void set_occurrences(Shapes& shapes, std::vector<WordOccurrence> all, std::size_t words) {
-    const auto place = [](const WordOccurrence& o) { return std::tuple(o.word, o.occurrence.feature); };
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const auto& a, const auto& b) { return place(a) < place(b); });
-    all.erase(std::unique(all.begin(), all.end(),
-                          [&](const auto& a, const auto& b) { return place(a) == place(b); }),
-              all.end());
-    shapes.occurrences.clear();
-    shapes.first.assign(words + 1, 0);
-    for (const WordOccurrence& o : all) {
-        shapes.occurrences.push_back(o.occurrence);
-        ++shapes.first[o.word + 1];
-    }
-    std::partial_sum(shapes.first.begin(), shapes.first.end(), shapes.first.begin());
-}
 
 /// The occurrences of before in a grown codebook: by matching where their descriptors are kept, at the words
 /// that theirs became where not.

@@ -13,6 +13,7 @@
 #include "ism/codebook/information_gain.hpp"
 #include "ism/core/error.hpp"
 #include "ism/detect/model.hpp"
+#include "ism/detect/set_occurrences.hpp"
 #include "ism/vote/vote_agreement.hpp"
 
 namespace ism {
@@ -55,7 +56,8 @@ enum class WordMeasure {
     return chosen;
 }
 
-/// @brief A model with these words and their occurrences alone, before its judge of boxes is learnt.
+/// @brief A model with these words and their occurrences alone, weighed again, before its judge of boxes is
+/// learnt.
 /// @param chosen  words in rising order
 /// @throws Error where none is chosen, or the model already has a judge, which counts all its words.
 template <Detector D, Descriptor Desc>
@@ -77,6 +79,7 @@ template <Detector D, Descriptor Desc>
         kept.shapes.occurrences.insert(kept.shapes.occurrences.end(), own.begin(), own.end());
         kept.shapes.first.push_back(static_cast<std::uint32_t>(kept.shapes.occurrences.size()));
     }
+    detail::weigh_occurrences(kept.shapes);
     return kept;
 }
 

@@ -18,6 +18,7 @@
 #include "ism/detect/learn_appearance.hpp"
 #include "ism/detect/model.hpp"
 #include "ism/detect/select_words.hpp"
+#include "ism/detect/set_occurrences.hpp"
 
 namespace ism {
 
@@ -97,42 +98,16 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
 
 /// What each word was seen as: every match is an occurrence.
 template <Detector D, Descriptor Desc>
-[[nodiscard]] Shapes shapes_of(const Harvest<D, Desc>& harvest, std::vector<Match> matches,
+[[nodiscard]] Shapes shapes_of(const Harvest<D, Desc>& harvest, std::span<const Match> matches,
                                std::size_t words) {
-    std::stable_sort(matches.begin(), matches.end(),
-                     [](const Match& a, const Match& b) { return a.word < b.word; });
-    Shapes shapes{.class_names = harvest.class_names,
-                  .objects = harvest.objects,
-                  .occurrences = {},
-                  .first = std::vector<std::uint32_t>(words + 1, 0),
-                  .appearance = {}};
-    shapes.occurrences.reserve(matches.size());
-    for (const Match& m : matches) {
-        shapes.occurrences.push_back(harvest.seen[m.feature]);
-        ++shapes.first[m.word + 1];
-    }
-    for (std::size_t w = 0; w < words; ++w) shapes.first[w + 1] += shapes.first[w];
+    std::vector<WordOccurrence> seen;
+    seen.reserve(matches.size());
+    for (const Match& m : matches) seen.push_back({m.word, harvest.seen[m.feature]});
+    Shapes shapes;
+    shapes.class_names = harvest.class_names;
+    shapes.objects = harvest.objects;
+    set_occurrences(shapes, std::move(seen), words);
     return shapes;
-}
-
-/// Gives each occurrence its weight p(occurrence | word): a feature shares one vote among its words, every
-/// class counts alike however many features it was trained with, and those of a word add up to 1.
-inline void weigh_occurrences(Shapes& shapes) {
-    std::uint32_t features = 0;
-    for (const Occurrence& o : shapes.occurrences) features = std::max(features, o.feature + 1);
-    std::vector<double> words_of(features, 0), of_class(shapes.class_names.size(), 0);
-    for (const Occurrence& o : shapes.occurrences) words_of[o.feature] += 1;
-    for (const Occurrence& o : shapes.occurrences) of_class[o.class_index] += 1 / words_of[o.feature];
-    const auto base = [&](const Occurrence& o) {
-        return 1 / (words_of[o.feature] * of_class[o.class_index]);
-    };
-    for (std::size_t w = 0; w + 1 < shapes.first.size(); ++w) {
-        const auto own =
-            std::span(shapes.occurrences).subspan(shapes.first[w], shapes.first[w + 1] - shapes.first[w]);
-        double sum = 0;
-        for (const Occurrence& o : own) sum += base(o);
-        for (Occurrence& o : own) o.weight = static_cast<float>(base(o) / sum);
-    }
 }
 
 }  // namespace detail
@@ -161,7 +136,7 @@ template <Detector D, Descriptor Desc>
 
     Model<D, Desc> model{.extractor = harvest.extractor,
                          .codebook = words,
-                         .shapes = detail::shapes_of(harvest, std::move(matches), words.size())};
+                         .shapes = detail::shapes_of(harvest, matches, words.size())};
     if (options.memory) model.memory = harvest.descriptors;
     if (options.min_information_gain > 0) {
         const auto gain = word_worth(model.shapes, WordMeasure::information_gain);

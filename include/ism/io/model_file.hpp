@@ -37,7 +37,7 @@ struct ModelInfo {
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 4;
+inline constexpr std::int64_t model_format_version = 5;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {

@@ -14,6 +14,7 @@
 
 #include "ism/io/json.hpp"
 #include "ism/io/limits.hpp"
+#include "ism/io/model_appearance.hpp"
 #include "ism/io/tensor.hpp"
 #include "ism/vote/occurrence.hpp"
 
@@ -77,9 +78,7 @@ inline void shapes_to_tensors(const Shapes& shapes, TensorFile& file) {
     file.tensors["object_sizes"] = make_tensor<float>(sizes, {objects, 3});
     file.tensors["object_classes"] = make_tensor<std::uint32_t>(classes, {objects});
     file.tensors["mask_sizes"] = make_tensor<std::uint32_t>(sides, {objects, 2});
-    file.tensors["appearance_weights"] =
-        make_tensor<float>(appearance.weights, {appearance.bias.size(), appearance.bins()});
-    file.tensors["appearance_bias"] = make_tensor<float>(appearance.bias, {appearance.bias.size()});
+    appearance_to_tensors(appearance, file);
     file.tensors["mask_runs"] = make_tensor<std::uint8_t>(runs, {runs.size() / 2, 2});
 }
 
@@ -172,17 +171,7 @@ inline void check_occurrence(const Occurrence& o, const Shapes& shapes, const st
         shapes.occurrences.push_back(occurrence);
     }
 
-    const auto bias = values<float>(file, "appearance_bias", {any_length});
-    expect<FileError>(bias.empty() || bias.size() == shapes.class_names.size(),
-                      file.source + ": appearance_bias",
-                      join_text("0 or ", shapes.class_names.size(), " numbers"), bias.size());
-    const auto weights = values<float>(file, "appearance_weights",
-                                       {bias.size(), bias.empty() ? 0 : Appearance::cells * words});
-    for (const auto& numbers_of : {bias, weights})
-        for (const float number : numbers_of)
-            expect<FileError>(std::isfinite(number), file.source + ": appearance", "finite numbers", number);
-    shapes.appearance.weights.assign(weights.begin(), weights.end());
-    shapes.appearance.bias.assign(bias.begin(), bias.end());
+    shapes.appearance = appearance_from_tensors(file, words, shapes.class_names.size());
     return shapes;
 }
 

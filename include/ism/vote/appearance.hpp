@@ -15,11 +15,11 @@
 
 namespace ism {
 
-/// @brief How often something is in a box: bin and value, bins rising.
-struct HistogramBin {
+/// @brief A bin and its value; of a row of bins those alone that are not 0, rising.
+struct BinValue {
     std::uint32_t bin = 0;
     float value = 0;
-    [[nodiscard]] bool operator==(const HistogramBin&) const = default;
+    [[nodiscard]] bool operator==(const BinValue&) const = default;
 };
 
 /// @brief What boxes of each class hold: for each class a linear judge of the words in a box, which sees also
@@ -28,18 +28,36 @@ struct HistogramBin {
 struct Appearance {
     static constexpr std::size_t cells = 5;  ///< the whole box and its four quarters
 
-    std::vector<float> weights;  ///< class c, bin b at c · bins() + b
-    std::vector<float> bias;     ///< one a class
+    std::vector<std::uint32_t> first = {0};  ///< class c has the weights first[c] … first[c + 1] − 1
+    std::vector<BinValue> weights;           ///< of a class's bins, rising; other bins say nothing of it
+    std::vector<float> bias;                 ///< one a class
 
     [[nodiscard]] bool empty() const { return bias.empty(); }
-    /// @brief Bins of a histogram: word w of cell k at k · words + w.
-    [[nodiscard]] std::size_t bins() const { return empty() ? 0 : weights.size() / bias.size(); }
+    [[nodiscard]] std::size_t classes() const { return bias.size(); }
+    [[nodiscard]] std::span<const BinValue> of_class(std::size_t class_index) const {
+        return std::span(weights).subspan(first[class_index], first[class_index + 1] - first[class_index]);
+    }
+
+    /// @brief Adds the judge of one class more.
+    /// @param own  its weights, bins rising
+    void push_back(std::span<const BinValue> own, float own_bias) {
+        weights.insert(weights.end(), own.begin(), own.end());
+        first.push_back(static_cast<std::uint32_t>(weights.size()));
+        bias.push_back(own_bias);
+    }
 
     /// @brief p(class | words in the box), 0 … 1; 1 without a judge.
-    [[nodiscard]] double probability(std::size_t class_index, std::span<const HistogramBin> box) const {
+    [[nodiscard]] double probability(std::size_t class_index, std::span<const BinValue> box) const {
         if (empty()) return 1;
         double sum = bias[class_index];
-        for (const HistogramBin& b : box) sum += double(b.value) * weights[class_index * bins() + b.bin];
+        std::span<const BinValue> own = of_class(class_index);
+        for (const BinValue& b : box) {
+            const auto at =
+                std::lower_bound(own.begin(), own.end(), b.bin,
+                                 [](const BinValue& w, std::uint32_t bin) { return w.bin < bin; });
+            own = own.subspan(std::size_t(at - own.begin()));
+            if (!own.empty() && own.front().bin == b.bin) sum += double(b.value) * own.front().value;
+        }
         return 1 / (1 + std::exp(-sum));
     }
 };
@@ -47,10 +65,10 @@ struct Appearance {
 /// @brief The words in a box and in each of its quarters: roots of shares, so that their squares add up to 1
 /// (Arandjelovic and Zisserman 2012 do so with SIFT). Empty where no word is in the box.
 /// @param words  of the codebook
-[[nodiscard]] inline std::vector<HistogramBin> word_histogram(std::span<const Feature> features,
-                                                              std::span<const Match> matches,
-                                                              std::size_t words, const Box& box) {
-    std::vector<HistogramBin> bins;
+[[nodiscard]] inline std::vector<BinValue> word_histogram(std::span<const Feature> features,
+                                                          std::span<const Match> matches, std::size_t words,
+                                                          const Box& box) {
+    std::vector<BinValue> bins;
     double total = 0;
     for (const Match& match : matches) {
         const Feature& f = features[match.feature];
@@ -62,16 +80,16 @@ struct Appearance {
         total += 2 * double(match.weight);
     }
     std::stable_sort(bins.begin(), bins.end(),
-                     [](const HistogramBin& a, const HistogramBin& b) { return a.bin < b.bin; });
+                     [](const BinValue& a, const BinValue& b) { return a.bin < b.bin; });
     std::size_t count = 0;
-    for (const HistogramBin& b : bins) {
+    for (const BinValue& b : bins) {
         if (count > 0 && bins[count - 1].bin == b.bin)
             bins[count - 1].value += b.value;
         else
             bins[count++] = b;
     }
     bins.resize(count);
-    for (HistogramBin& b : bins) b.value = static_cast<float>(std::sqrt(b.value / total));
+    for (BinValue& b : bins) b.value = static_cast<float>(std::sqrt(b.value / total));
     return bins;
 }
 

@@ -56,6 +56,9 @@ struct Shapes {
     [[nodiscard]] std::span<const Occurrence> of_word(std::size_t word) const {
         return std::span(occurrences).subspan(first[word], first[word + 1] - first[word]);
     }
+    [[nodiscard]] std::span<Occurrence> of_word(std::size_t word) {
+        return std::span(occurrences).subspan(first[word], first[word + 1] - first[word]);
+    }
 };
 
 }  // namespace ism

@@ -32,7 +32,7 @@ namespace ism {
         const double u = (feature.x - other.x * ratio) / X::bandwidth;
         const double v = (feature.y - other.y * ratio) / Y::bandwidth;
         const double w = (ratio - 1) / Scale::bandwidth;
-        right += weight * EpanechnikovKernel::profile(u * u + v * v + w * w);
+        right += weight * EpanechnikovKernel::profile(static_cast<float>(u * u + v * v + w * w));
     }
     return all > 0 ? right / all : 0;
 }
