@@ -1,23 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 
-// How the time to search a picture and the size of the codebook grow with the number of classes: one joint
-// model beside models of their own (a codebook a class, features shared). A class here is one real object of
-// the data sets, so classes are many and alike; the judge of boxes, whose cost in detection does not depend
-// on the number of classes, is left out.
+// How the time to search a picture and the size of the codebook grow with the number of classes, for one
+// joint model, for one model with a codebook a class, and for a model a class, each searched by itself (the
+// features of a picture found once). Classes are real objects, and rendered toys: many and alike.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "support/many_classes.hpp"
 #include "support/photographs.hpp"
-#include "support/pseudo_classes.hpp"
+#include "support/real_classes.hpp"
 #include "support/rows.hpp"
+#include "support/toy_classes.hpp"
 #include <CLI/CLI.hpp>
 
 #include "ism/detect/detect.hpp"
@@ -34,55 +36,141 @@ namespace fs = std::filesystem;
 using ism::HessianLaplace;
 using ism::RootSift;
 using Model = ism::Model<HessianLaplace, RootSift>;
+using Harvest = ism::Harvest<HessianLaplace, RootSift>;
+using Detector = ism::FrameDetector<HessianLaplace, RootSift>;
+
+struct Settings {
+    fs::path data;
+    std::size_t most = 1024, rounds = 5;
+    unsigned threads = 1;
+    bool judge = false;
+};
+
+constexpr std::array kinds = {"one joint model", "a codebook a class", "a model a class"};
 
 struct Point {
     std::size_t classes = 0;
-    double words[2] = {}, ms[2] = {}, known = 0;  // joint, separate; share of objects found again by joint
+    std::array<std::size_t, kinds.size()> words = {};
+    std::array<double, kinds.size()> ms = {};
+    std::size_t shown = 0, found = 0;  // objects of known classes in the pictures to check; joint
 };
 
-/// The exponent b of y = a · x^b, fitted to logarithms.
-[[nodiscard]] double exponent(const std::vector<Point>& points, std::size_t from, int kind) {
+/// The exponent b of y = a · x^b, fitted to logarithms, from 16 classes on.
+[[nodiscard]] double exponent(const std::vector<Point>& points, std::size_t kind) {
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (const Point& p : points) {
-        if (p.classes < from || !(p.ms[kind] > 0)) continue;
+        if (p.classes < 16) continue;
         const double x = std::log(double(p.classes)), y = std::log(p.ms[kind]);
         n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
     }
     return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-using Detector = ism::FrameDetector<HessianLaplace, RootSift>;
-
-/// The share of some training objects that are found as what and where they are.
-[[nodiscard]] double share_known(Detector& detector, const bench::PseudoClasses& classes, std::size_t count) {
-    const std::size_t tried = std::min<std::size_t>(count, 32);
-    std::size_t right = 0;
-    for (std::size_t k = 0; k < tried; ++k) {
-        const std::size_t i = k * count / tried;
-        const auto found = detector.detect<ism::Jism>(classes.images[i].frame);
-        right += std::any_of(found.objects.begin(), found.objects.end(), [&](const ism::Detection& object) {
-            return object.class_index == i && ism::iou(object.box, classes.images[i].objects[0].box) > 0.5;
-        });
+/// A model for each class, which are searched one after another.
+class ModelsApart {
+public:
+    ModelsApart(const Harvest& harvest, std::size_t classes, const ism::TrainOptions& options)
+        : extractor_(harvest.extractor, options.threads), threads_(options.threads) {
+        for (std::uint32_t c = 0; c < classes; ++c) {
+            Model model = ism::learn(bench::classes_of(harvest, c, c + 1), options);
+            words_.emplace_back(model.codebook);
+            shapes_.push_back(std::move(model.shapes));
+        }
     }
-    return double(right) / double(tried);
+
+    [[nodiscard]] std::size_t words() const {
+        std::size_t sum = 0;
+        for (const auto& words : words_) sum += words.size();
+        return sum;
+    }
+
+    /// How many objects are found in a picture.
+    std::size_t search(const ism::Frame& frame) {
+        const auto& found = extractor_.extract(frame.gray.view());
+        std::size_t objects = 0;
+        for (std::size_t c = 0; c < words_.size(); ++c) {
+            const std::vector<ism::Match> matches = ism::match(words_[c], found.descriptors, threads_);
+            objects += ism::detect_from_matches<ism::Jism>(found.features, matches, shapes_[c], frame,
+                                                           {.threads = threads_})
+                           .objects.size();
+        }
+        return objects;
+    }
+
+private:
+    ism::FeatureExtractor<HessianLaplace, RootSift> extractor_;
+    std::deque<ism::WordIndex<RootSift::dimension>> words_;
+    std::deque<ism::Shapes> shapes_;
+    unsigned threads_;
+};
+
+/// Counts the objects of known classes in pictures, and those that are found as what and where they are.
+void check(Point& point, Detector& detector, const std::vector<ism::TrainingImage>& pictures) {
+    for (const ism::TrainingImage& picture : pictures) {
+        const auto found = detector.detect<ism::Jism>(picture.frame);
+        for (const ism::LabelledObject& object : picture.objects) {
+            if (object.class_index >= point.classes) continue;
+            ++point.shown;
+            point.found +=
+                std::any_of(found.objects.begin(), found.objects.end(), [&](const ism::Detection& detection) {
+                    return detection.class_index == object.class_index &&
+                           ism::iou(detection.box, object.box) > 0.5;
+                });
+        }
+    }
 }
 
-[[nodiscard]] ism::Plot plot_of(const std::vector<Point>& points) {
-    ism::Plot plot{.title = "Time to search a picture",
+[[nodiscard]] Point measure(const bench::ManyClasses& classes, const Harvest& harvest, std::size_t count,
+                            const Settings& settings) {
+    Point point{.classes = count};
+    const Harvest part = bench::classes_of(harvest, 0, std::uint32_t(count));
+    ism::TrainOptions options{
+        .max_cluster_features = part.seen.size() + 2, .appearance = false, .threads = settings.threads};
+    Model joint = ism::learn(part, options);
+    if (settings.judge)
+        joint.shapes.appearance = ism::learn_appearance(
+            joint, part.first_object, [&](std::size_t i) -> const auto& { return classes.images[i]; });
+    ModelsApart apart(harvest, count, options);
+    options.codebook = ism::CodebookKind::per_class;
+    const Model per_class = ism::learn(part, options);
+    point.words = {joint.codebook.size(), per_class.codebook.size(), apart.words()};
+
+    Detector joint_detector(joint, settings.threads), per_class_detector(per_class, settings.threads);
+    const auto each = [&](const auto& search) {
+        for (const ism::Frame& frame : classes.frames) search(frame);
+    };
+    const std::vector<std::function<void()>> runs = {
+        [&] {
+            each([&](const auto& frame) {
+                (void)joint_detector.detect<ism::Jism>(frame, {.threads = settings.threads});
+            });
+        },
+        [&] {
+            each([&](const auto& frame) {
+                (void)per_class_detector.detect<ism::Jism>(frame, {.threads = settings.threads});
+            });
+        },
+        [&] { each([&](const auto& frame) { (void)apart.search(frame); }); }};
+    const std::vector<double> ms = bench::interleaved_ms(runs, settings.rounds);
+    for (std::size_t k = 0; k < kinds.size(); ++k) point.ms[k] = ms[k] / double(classes.frames.size());
+    check(point, joint_detector, classes.checks);
+    return point;
+}
+
+[[nodiscard]] ism::Plot plot_of(const std::vector<Point>& points, const std::string& what) {
+    ism::Plot plot{.title = "Time to search a picture: " + what,
                    .x_label = "classes (logarithm to base 2)",
                    .y_label = "ms (logarithm to base 10)"};
-    const char* names[] = {"one joint model", "a model a class"};
     double low = 1e9, high = -1e9;
-    for (int kind = 0; kind < 2; ++kind) {
-        ism::PlotCurve curve{.name = ism::join_text(names[kind], ": classes to the power ",
-                                                    bench::number(exponent(points, 16, kind))),
-                             .color = ism::class_color(std::size_t(kind))};
-        for (const Point& p : points)
-            if (p.ms[kind] > 0) {
-                curve.x.push_back(std::log2(double(p.classes)));
-                curve.y.push_back(std::log10(p.ms[kind]));
-                low = std::min(low, curve.y.back()), high = std::max(high, curve.y.back());
-            }
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        ism::PlotCurve curve{.name = ism::join_text(kinds[kind], ": classes to the power ",
+                                                    bench::number(exponent(points, kind))),
+                             .color = ism::class_color(kind)};
+        for (const Point& p : points) {
+            curve.x.push_back(std::log2(double(p.classes)));
+            curve.y.push_back(std::log10(p.ms[kind]));
+            low = std::min(low, curve.y.back()), high = std::max(high, curve.y.back());
+        }
         plot.curves.push_back(std::move(curve));
     }
     plot.x_range = {0, std::max(1.0, std::log2(double(points.back().classes)))};
@@ -90,59 +178,39 @@ using Detector = ism::FrameDetector<HessianLaplace, RootSift>;
     return plot;
 }
 
-void measure(const fs::path& data, std::size_t most, std::size_t rounds, unsigned threads,
-             const std::string& json, const std::string& svg) {
-    std::vector<fs::path> files;
-    for (const char* set : {"four-class/train", "msrc/train", "osd/train", "sysu-shapes/train",
-                            "weizmann-horses/train", "uiuc-cars/train", "sysu-shapes/val", "msrc/val"})
-        files.push_back(data / (std::string(set) + ".json"));
-    const ism::Extractor<HessianLaplace, RootSift> extractor;
-    const bench::PseudoClasses classes = bench::pseudo_classes(files, most, extractor);
-    most = classes.images.size();
-    const auto harvest =
-        ism::harvest(classes.names, most, [&](std::size_t i) -> const auto& { return classes.images[i]; },
-                     extractor, {.max_features = 100 * most});
-    std::printf("%zu real objects, each a class, %zu features\n", most, harvest.seen.size());
-
-    const ism::Dataset scenes = ism::read_dataset(data / "osd" / "val.json");
-    std::vector<ism::Frame> frames;
-    for (std::size_t i = 0; i < 8; ++i) frames.push_back(ism::read_frame(scenes.images.at(i * 5)));
-
+/// Measures, prints a table, draws a plot.
+void scale(const bench::ManyClasses& classes, const Settings& settings, const fs::path& svg,
+           std::vector<bench::Row>& rows) {
+    const std::size_t most = classes.names.size();
+    const Harvest harvest = ism::harvest<HessianLaplace, RootSift>(
+        classes.names, classes.images.size(), [&](std::size_t i) -> const auto& { return classes.images[i]; },
+        {}, {.max_features = 100 * classes.images.size()});
+    std::printf("%s: %zu classes, %zu features\n", classes.what.c_str(), most, harvest.seen.size());
+    std::vector<std::vector<std::string>> table = {{"classes", "joint ms", "words", "codebook a class ms",
+                                                    "words", "model a class ms", "words", "found by joint"}};
     std::vector<Point> points;
-    std::vector<bench::Row> rows;
     for (std::size_t count = 1; count <= most; count *= 2) {
-        Point point{.classes = count};
-        const auto part = bench::first_classes(harvest, count);
-        std::vector<Model> models;
-        models.reserve(2);
-        std::vector<std::unique_ptr<Detector>> detectors;
-        for (const auto kind : {ism::CodebookKind::joint, ism::CodebookKind::per_class}) {
-            models.push_back(ism::learn(part, {.codebook = kind, .appearance = false, .threads = threads}));
-            point.words[models.size() - 1] = double(models.back().codebook.size());
-            detectors.push_back(std::make_unique<Detector>(models.back(), threads));
+        const Point p = measure(classes, harvest, count, settings);
+        table.push_back({std::to_string(count)});
+        for (std::size_t k = 0; k < kinds.size(); ++k) {
+            table.back().push_back(bench::number(p.ms[k], 1));
+            table.back().push_back(std::to_string(p.words[k]));
         }
-        std::vector<std::function<void()>> runs;
-        for (const auto& detector : detectors)
-            runs.push_back([&frames, &detector = *detector, threads] {
-                for (const ism::Frame& frame : frames)
-                    (void)detector.detect<ism::Jism>(frame, {.threads = threads});
-            });
-        const std::vector<double> ms = bench::interleaved_ms(runs, rounds);
-        for (int kind = 0; kind < 2; ++kind) point.ms[kind] = ms[std::size_t(kind)] / double(frames.size());
-        point.known = share_known(*detectors.front(), classes, count);
-        points.push_back(point);
-        rows.push_back({.name = std::to_string(count) + " classes",
-                        .ours = point.ms[0],
-                        .peer = point.ms[1],
-                        .peer_name = "a model a class",
-                        .unit = "ms a picture",
-                        .correct = point.known >= 0.9,
-                        .remark = bench::number(point.words[0], 0) + " words beside " +
-                                  bench::number(point.words[1], 0) + "; training objects found again " +
-                                  bench::number(100 * point.known, 0) + " %"});
-        std::fprintf(stderr, "%zu classes: %.1f ms, %.1f ms\n", count, point.ms[0], point.ms[1]);
+        const std::string found = ism::join_text(p.found, " of ", p.shown);
+        table.back().push_back(found);
+        for (std::size_t k = 1; k < kinds.size(); ++k)
+            rows.push_back({.name = ism::join_text(count, " classes, ", classes.what),
+                            .ours = p.ms[0],
+                            .peer = p.ms[k],
+                            .peer_name = kinds[k],
+                            .unit = "ms a picture",
+                            .correct = p.found > 0 || p.shown == 0,
+                            .remark = ism::join_text(p.words[0], " words beside ", p.words[k], ", ", found,
+                                                     " objects found")});
+        std::fprintf(stderr, "%zu classes: %.1f ms, %.1f ms, %.1f ms\n", count, p.ms[0], p.ms[1], p.ms[2]);
+        points.push_back(p);
     }
-    bench::print(rows);
+    std::fputs(ism::align_columns(table).c_str(), stdout);
     const auto at = [&](std::size_t count) {
         for (const Point& p : points)
             if (p.classes == count) return p.ms[0];
@@ -150,28 +218,38 @@ void measure(const fs::path& data, std::size_t most, std::size_t rounds, unsigne
     };
     std::printf(
         "joint: time from 4 to 128 classes x %.2f; exponent over 16 ... %zu classes %.2f "
-        "(a model a class: %.2f)\n",
-        at(128) / at(4), points.back().classes, exponent(points, 16, 0), exponent(points, 16, 1));
-    if (!json.empty()) bench::write_json(json, rows);
-    if (!svg.empty()) ism::write_file(svg, [&](std::ostream& out) { out << ism::to_svg(plot_of(points)); });
+        "(a codebook a class %.2f, a model a class %.2f)\n\n",
+        at(128) / at(4), points.back().classes, exponent(points, 0), exponent(points, 1),
+        exponent(points, 2));
+    ism::write_file(svg, [&](std::ostream& out) { out << ism::to_svg(plot_of(points, classes.what)); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     CLI::App app{"Time to search a picture, by number of classes"};
-    std::string data = bench::data_folder().string(), json, svg = "class_scaling.svg";
-    std::size_t most = 1024, rounds = 5;
-    unsigned threads = 1;
-    app.add_option("--data", data, "folder of the data sets");
-    app.add_option("--classes", most, "so many at most")->check(CLI::Range(1, 1024));
-    app.add_option("--rounds", rounds, "times each is measured")->check(CLI::Range(1, 1000));
-    app.add_option("--threads", threads, "of detection");
+    Settings settings{.data = bench::data_folder()};
+    std::string json, svg = ".", from = "both";
+    app.add_option("--data", settings.data, "folder of the data sets");
+    app.add_option("--from", from, "what classes are made from")
+        ->check(CLI::IsMember({"real", "toys", "both"}));
+    app.add_option("--classes", settings.most, "so many at most")->check(CLI::Range(1, 4096));
+    app.add_option("--rounds", settings.rounds, "times each is measured")->check(CLI::Range(1, 1000));
+    app.add_option("--threads", settings.threads, "of learning and detection");
+    app.add_flag("--judge", settings.judge, "the joint model also learns its judge of boxes");
     app.add_option("--json", json, "also write the rows to this file");
-    app.add_option("--plot", svg, "file of the plot (SVG)");
+    app.add_option("--plots", svg, "folder of the plots class_scaling_real.svg and class_scaling_toys.svg");
     CLI11_PARSE(app, argc, argv);
     try {
-        measure(data, most, rounds, threads, json, svg);
+        std::vector<bench::Row> rows;
+        if (from != "toys")
+            scale(
+                bench::real_classes(settings.data, settings.most, ism::Extractor<HessianLaplace, RootSift>{}),
+                settings, fs::path(svg) / "class_scaling_real.svg", rows);
+        if (from != "real")
+            scale(bench::toy_classes(settings.most), settings, fs::path(svg) / "class_scaling_toys.svg",
+                  rows);
+        if (!json.empty()) bench::write_json(json, rows);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "class_scaling: %s\n", error.what());
         return 2;

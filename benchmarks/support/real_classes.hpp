@@ -4,41 +4,37 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "support/many_classes.hpp"
+
 #include "ism/core/parallel.hpp"
-#include "ism/detect/harvest.hpp"
 #include "ism/feature/extract.hpp"
 #include "ism/io/coco.hpp"
 
 namespace bench {
 
-/// @brief Real objects, each a class of its own: as many classes as there are objects.
-struct PseudoClasses {
-    std::vector<ism::TrainingImage> images;  ///< with one object each; image i shows class i
-    std::vector<std::string> names;
-};
-
-/// @brief Objects of several sets by turns, at most `count`, so that any first part has some of each; only
-/// those that an extractor finds 20 features on.
-/// @param files  COCO files
+/// @brief Real objects, each a class of its own that is learnt from one picture: of several sets by turns, so
+/// that any first part has some of each, and only those that an extractor finds 20 features on. Pictures to
+/// search are those of desks in osd/val, to check the training images of the first 32 classes.
+/// @param data  folder of the data sets
 template <ism::Detector D, ism::Descriptor Desc>
-[[nodiscard]] PseudoClasses pseudo_classes(const std::vector<std::filesystem::path>& files, std::size_t count,
-                                           const ism::Extractor<D, Desc>& extractor) {
+[[nodiscard]] ManyClasses real_classes(const std::filesystem::path& data, std::size_t count,
+                                       const ism::Extractor<D, Desc>& extractor) {
     std::vector<std::vector<std::pair<ism::DatasetImage, std::size_t>>> sets;  // image and object of each
     std::size_t longest = 0;
-    for (const auto& file : files) {
+    for (const char* set : {"four-class/train", "msrc/train", "osd/train", "sysu-shapes/train",
+                            "weizmann-horses/train", "uiuc-cars/train", "sysu-shapes/val", "msrc/val"}) {
         sets.emplace_back();
-        for (const ism::DatasetImage& image : ism::read_dataset(file).images)
+        for (const ism::DatasetImage& image : ism::read_dataset(data / (std::string(set) + ".json")).images)
             for (std::size_t o = 0; o < image.objects.size(); ++o)
                 if (!image.objects[o].crowd) sets.back().emplace_back(image, o);
         longest = std::max(longest, sets.back().size());
     }
-    PseudoClasses result;
+    ManyClasses result{.what = "real objects, each a class, one picture each"};
     for (std::size_t turn = 0; turn < longest && result.images.size() < count; ++turn) {
         std::vector<ism::TrainingImage> round(sets.size());
         ism::parallel_for(sets.size(), 0, [&](std::size_t s) {
@@ -60,28 +56,11 @@ template <ism::Detector D, ism::Descriptor Desc>
             result.images.push_back(std::move(image));
         }
     }
+    for (std::size_t i = 0; i < std::min<std::size_t>(32, result.images.size()); ++i)
+        result.checks.push_back(result.images[i]);
+    const ism::Dataset scenes = ism::read_dataset(data / "osd" / "val.json");
+    for (std::size_t i = 0; i < 8; ++i) result.frames.push_back(ism::read_frame(scenes.images.at(i * 5)));
     return result;
-}
-
-/// @brief What a harvest of images with one object and one class each gives for the first `classes` alone.
-template <ism::Detector D, ism::Descriptor Desc>
-[[nodiscard]] ism::Harvest<D, Desc> first_classes(const ism::Harvest<D, Desc>& all, std::size_t classes) {
-    ism::Harvest<D, Desc> part{
-        .extractor = all.extractor,
-        .class_names = {all.class_names.begin(), all.class_names.begin() + std::ptrdiff_t(classes)},
-        .objects = {},
-        .first_object = {0},
-        .seen = {},
-        .descriptors = {}};
-    for (const ism::TrainingObject& object : all.objects)
-        if (object.class_index < classes) part.objects.push_back(object);
-    for (std::size_t i = 0; i < all.seen.size(); ++i)
-        if (all.seen[i].class_index < classes) {
-            part.seen.push_back(all.seen[i]);
-            part.descriptors.push_back(all.descriptors.row(i));
-        }
-    for (std::uint32_t i = 1; i <= part.objects.size(); ++i) part.first_object.push_back(i);
-    return part;
 }
 
 }  // namespace bench
