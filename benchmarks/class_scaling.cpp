@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "support/many_classes.hpp"
@@ -43,7 +45,7 @@ struct Settings {
     fs::path data;
     std::size_t most = 1024, rounds = 5;
     unsigned threads = 1;
-    bool judge = false;
+    bool judge = true;
 };
 
 constexpr std::array kinds = {"one joint model", "a codebook a class", "a model a class"};
@@ -52,7 +54,8 @@ struct Point {
     std::size_t classes = 0;
     std::array<std::size_t, kinds.size()> words = {};
     std::array<double, kinds.size()> ms = {};
-    std::size_t shown = 0, found = 0;  // objects of known classes in the pictures to check; joint
+    std::size_t shown = 0;  // objects of known classes in the pictures to check
+    std::array<std::size_t, kinds.size() - 1> found = {};  // of these by the models of all classes
 };
 
 /// The exponent b of y = a · x^b, fitted to logarithms, from 16 classes on.
@@ -104,20 +107,24 @@ private:
     unsigned threads_;
 };
 
-/// Counts the objects of known classes in pictures, and those that are found as what and where they are.
-void check(Point& point, Detector& detector, const std::vector<ism::TrainingImage>& pictures) {
+/// How many objects of the first `classes` classes are in the pictures, and how many of these are found as
+/// what and where they are.
+[[nodiscard]] std::pair<std::size_t, std::size_t> shown_and_found(
+    Detector& detector, std::size_t classes, const std::vector<ism::TrainingImage>& pictures) {
+    std::size_t shown = 0, right = 0;
     for (const ism::TrainingImage& picture : pictures) {
         const auto found = detector.detect<ism::Jism>(picture.frame);
         for (const ism::LabelledObject& object : picture.objects) {
-            if (object.class_index >= point.classes) continue;
-            ++point.shown;
-            point.found +=
+            if (object.class_index >= classes) continue;
+            ++shown;
+            right +=
                 std::any_of(found.objects.begin(), found.objects.end(), [&](const ism::Detection& detection) {
                     return detection.class_index == object.class_index &&
                            ism::iou(detection.box, object.box) > 0.5;
                 });
         }
     }
+    return {shown, right};
 }
 
 [[nodiscard]] Point measure(const bench::ManyClasses& classes, const Harvest& harvest, std::size_t count,
@@ -153,7 +160,8 @@ void check(Point& point, Detector& detector, const std::vector<ism::TrainingImag
         [&] { each([&](const auto& frame) { (void)apart.search(frame); }); }};
     const std::vector<double> ms = bench::interleaved_ms(runs, settings.rounds);
     for (std::size_t k = 0; k < kinds.size(); ++k) point.ms[k] = ms[k] / double(classes.frames.size());
-    check(point, joint_detector, classes.checks);
+    std::tie(point.shown, point.found[0]) = shown_and_found(joint_detector, count, classes.checks);
+    std::tie(point.shown, point.found[1]) = shown_and_found(per_class_detector, count, classes.checks);
     return point;
 }
 
@@ -186,8 +194,9 @@ void scale(const bench::ManyClasses& classes, const Settings& settings, const fs
         classes.names, classes.images.size(), [&](std::size_t i) -> const auto& { return classes.images[i]; },
         {}, {.max_features = 100 * classes.images.size()});
     std::printf("%s: %zu classes, %zu features\n", classes.what.c_str(), most, harvest.seen.size());
-    std::vector<std::vector<std::string>> table = {{"classes", "joint ms", "words", "codebook a class ms",
-                                                    "words", "model a class ms", "words", "found by joint"}};
+    std::vector<std::vector<std::string>> table = {{"classes", "joint ms", "words", "found",
+                                                    "codebook a class ms", "words", "found",
+                                                    "model a class ms", "words"}};
     std::vector<Point> points;
     for (std::size_t count = 1; count <= most; count *= 2) {
         const Point p = measure(classes, harvest, count, settings);
@@ -195,18 +204,17 @@ void scale(const bench::ManyClasses& classes, const Settings& settings, const fs
         for (std::size_t k = 0; k < kinds.size(); ++k) {
             table.back().push_back(bench::number(p.ms[k], 1));
             table.back().push_back(std::to_string(p.words[k]));
+            if (k < p.found.size()) table.back().push_back(ism::join_text(p.found[k], " of ", p.shown));
         }
-        const std::string found = ism::join_text(p.found, " of ", p.shown);
-        table.back().push_back(found);
         for (std::size_t k = 1; k < kinds.size(); ++k)
             rows.push_back({.name = ism::join_text(count, " classes, ", classes.what),
                             .ours = p.ms[0],
                             .peer = p.ms[k],
                             .peer_name = kinds[k],
                             .unit = "ms a picture",
-                            .correct = p.found > 0 || p.shown == 0,
-                            .remark = ism::join_text(p.words[0], " words beside ", p.words[k], ", ", found,
-                                                     " objects found")});
+                            .correct = p.found[0] > 0 || p.shown == 0,
+                            .remark = ism::join_text(p.words[0], " words beside ", p.words[k], ", ",
+                                                     p.found[0], " of ", p.shown, " objects found")});
         std::fprintf(stderr, "%zu classes: %.1f ms, %.1f ms, %.1f ms\n", count, p.ms[0], p.ms[1], p.ms[2]);
         points.push_back(p);
     }
@@ -236,7 +244,7 @@ int main(int argc, char** argv) {
     app.add_option("--classes", settings.most, "so many at most")->check(CLI::Range(1, 4096));
     app.add_option("--rounds", settings.rounds, "times each is measured")->check(CLI::Range(1, 1000));
     app.add_option("--threads", settings.threads, "of learning and detection");
-    app.add_flag("--judge", settings.judge, "the joint model also learns its judge of boxes");
+    app.add_flag("--judge,!--no-judge", settings.judge, "the joint model also learns its judge of boxes");
     app.add_option("--json", json, "also write the rows to this file");
     app.add_option("--plots", svg, "folder of the plots class_scaling_real.svg and class_scaling_toys.svg");
     CLI11_PARSE(app, argc, argv);

@@ -145,6 +145,19 @@ TEST_CASE("other kernels and plain suppression find the object too") {
     CHECK(ism::iou(gauss.objects[0].box, test.objects[0].box) > 0.7);
 }
 
+TEST_CASE("the judge sees all candidates before the best of them are cut out") {
+    auto model = trained<ism::RootSift>();
+    model.shapes.appearance = {};
+    for (const float bias : {-20.0f, 20.0f}) model.shapes.appearance.push_back({}, bias);
+    const auto scene = picture(0, 70, 50, 9);
+    const auto one_candidate = ism::detect<ism::Jism>(model, scene.frame, {.keep = 0, .max_candidates = 1});
+    REQUIRE(one_candidate.objects.size() == 1);
+    CHECK(one_candidate.objects[0].class_index == 0);
+    const auto one_cut_out = ism::detect<ism::Jism>(model, scene.frame, {.keep = 0, .max_hypotheses = 1});
+    REQUIRE(one_cut_out.objects.size() == 1);
+    CHECK(one_cut_out.objects[0].class_index == 1);
+}
+
 TEST_CASE("an empty scene gives an empty result, not an error") {
     const auto model = trained<ism::RootSift>();
     const ism::Frame blank{.gray = ism::GrayImage(120, 90, 0.3f)};

@@ -85,7 +85,7 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
            join_text(first_object.size(), " numbers",
                      first_object.empty() ? "" : join_text(", the last ", first_object.back())));
     const std::size_t images = first_object.size() - 1;
-    const DetectOptions<Jism> search{.max_hypotheses = std::max<std::size_t>(3, options.max_samples / images),
+    const DetectOptions<Jism> search{.max_candidates = std::max<std::size_t>(3, options.max_samples / images),
                                      .threads = 1};
     Team team(unsigned(std::min<std::size_t>(thread_count(threads), images)));
     std::deque<FrameMatcher<D, Desc>> matchers;

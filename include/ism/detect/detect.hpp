@@ -35,6 +35,7 @@ template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl>
         std::stable_sort(hypotheses.begin(), hypotheses.end(),
                          [](const Detection& a, const Detection& b) { return a.score > b.score; });
     }
+    if (hypotheses.size() > options.max_hypotheses) hypotheses.resize(options.max_hypotheses);
     parallel_for(hypotheses.size(), options.threads, [&](std::size_t i) {
         hypotheses[i].segmentation = segment(features, shapes, hypotheses[i].support, hypotheses[i].box,
                                              frame.gray.width(), frame.gray.height(), options.segmentation);

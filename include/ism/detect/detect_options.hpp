@@ -18,7 +18,8 @@ template <AnyVoteSpace Space>
 struct DetectOptions {
     Bandwidth<Space::dimension> bandwidth = default_bandwidth<Space>();
     double keep = 0.05;  ///< T_ratio: weaker hypotheses than this part of the strongest are dropped
-    std::size_t max_hypotheses = 40;  ///< so many of the strongest are cut out and verified
+    std::size_t max_candidates = 200;  ///< so many of the strongest hypotheses does the judge of boxes see
+    std::size_t max_hypotheses = 40;   ///< so many of these, the best after it, are cut out and verified
     double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
     double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object
     MatchMode matching = MatchMode::nearest;  ///< of votes; training and the judge of boxes match softly

@@ -82,8 +82,8 @@ template <std::size_t Dimension>
 
 }  // namespace detail
 
-/// @brief The places where votes agree, strongest first over all labels, each told as a detection without
-/// segmentation.
+/// @brief The places where votes agree, strongest first over all labels, at most
+/// DetectOptions::max_candidates, each told as a detection without segmentation.
 /// @param votes  as cast_votes gives them: by rising label
 template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
 [[nodiscard]] std::vector<Detection> find_hypotheses(std::span<const Vote<Space::dimension>> votes,
@@ -94,7 +94,7 @@ template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
     const auto labels = split_by_label(votes);
     const auto modes =
         strongest_modes<K>(std::span<const std::span<const Vote<dimension>>>(labels), options.bandwidth,
-                           options.mean_shift, options.max_hypotheses, options.keep, options.threads);
+                           options.mean_shift, options.max_candidates, options.keep, options.threads);
     std::vector<Detection> hypotheses(modes.size());
     parallel_for(modes.size(), options.threads, [&](std::size_t i) {
         const auto of_label = std::lower_bound(
