@@ -29,8 +29,7 @@ struct AppearanceOptions {
     double regularisation = 3e-4;    ///< of the squared weights
     int iterations = 200;            ///< steps of gradient descent
     std::size_t max_samples = 5000;  ///< hypotheses of all images together, at least 3 an image
-    std::size_t max_others = 2000;   ///< boxes of other classes that a judge learns from, beside those that
-                                     ///< were taken for its own
+    std::size_t max_others = 100;    ///< boxes of other classes that a judge also learns from
     bool mirror = true;              ///< as many again from the images as a mirror shows them
     double same_iou = 0.5;           ///< a hypothesis that overlaps an object so far shows it
     double other_iou = 0.3;          ///< one that overlaps all less is background; between is left out
