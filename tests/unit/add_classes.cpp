@@ -11,6 +11,7 @@
 
 #include "ism/core/random.hpp"
 #include "ism/detect/detect.hpp"
+#include "ism/detect/train.hpp"
 #include "ism/feature/gray_patch.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"

@@ -15,10 +15,10 @@
 #include "ism/codebook/match.hpp"
 #include "ism/core/random.hpp"
 #include "ism/detect/harvest.hpp"
+#include "ism/detect/learn_words.hpp"
 #include "ism/detect/model.hpp"
 #include "ism/detect/move_occurrences.hpp"
 #include "ism/detect/set_occurrences.hpp"
-#include "ism/detect/train.hpp"
 
 namespace ism {
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,88 +12,17 @@
 
 #include "ism/codebook/byte_codebook.hpp"
 #include "ism/codebook/match.hpp"
-#include "ism/core/random.hpp"
 #include "ism/detect/harvest.hpp"
 #include "ism/detect/learn_appearance.hpp"
+#include "ism/detect/learn_words.hpp"
 #include "ism/detect/model.hpp"
 #include "ism/detect/select_words.hpp"
 #include "ism/detect/set_occurrences.hpp"
+#include "ism/detect/train_options.hpp"
 
 namespace ism {
 
-/// @brief Whether classes share words.
-enum class CodebookKind {
-    joint,      ///< one codebook of all classes (the paper's)
-    per_class,  ///< each class has words of its own, as separate models have
-};
-
-/// @brief How a model is trained.
-struct TrainOptions {
-    double min_similarity = 0.82;      ///< clustering and matching cut-off; 1 = equal, 0 = unrelated
-    std::size_t min_cluster_size = 2;  ///< smaller clusters make no word (T_Q + 1)
-    double min_information_gain = 0;   ///< words that tell less about the class are dropped (T_IG)
-    std::size_t max_words = 0;         ///< of more words the best by `measure` stay; 0 = all
-    WordMeasure measure = WordMeasure::vote_agreement;
-    CodebookKind codebook = CodebookKind::joint;
-    std::size_t max_features = 40000;  ///< see HarvestOptions
-    std::size_t max_cluster_features =
-        30000;               ///< of more features a random part is clustered; all are matched
-    std::uint64_t seed = 1;  ///< chooses that part
-    bool memory = false;     ///< also keep the descriptors, so that the model can grow well: see Model
-    bool appearance = true;  ///< also learn what boxes of each class hold, to judge hypotheses
-    unsigned threads = 0;    ///< 0 = all the machine has
-    Progress progress = {};
-};
-
 namespace detail {
-
-/// A random part of `count` numbers below `total`, in rising order.
-[[nodiscard]] inline std::vector<std::size_t> random_part(std::size_t total, std::size_t count,
-                                                          Random& random) {
-    std::vector<std::size_t> part;
-    for (std::size_t i = 0; i < total && part.size() < count; ++i)
-        if (random.uniform() * double(total - i) < double(count - part.size())) part.push_back(i);
-    return part;
-}
-
-template <std::size_t Dimension, DescriptorScalar Scalar>
-[[nodiscard]] Descriptors<float, Dimension> chosen_as_float(const Descriptors<Scalar, Dimension>& all,
-                                                            std::span<const std::size_t> rows) {
-    Descriptors<float, Dimension> part(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        std::copy(all.row(rows[i]).begin(), all.row(rows[i]).end(), part.row(i).begin());
-    return part;
-}
-
-/// The words of all features, or those of each class after those of another.
-template <std::size_t Dimension, DescriptorScalar Scalar>
-[[nodiscard]] Codebook<Dimension> learn_words(const Descriptors<Scalar, Dimension>& descriptors,
-                                              std::span<const Occurrence> seen, std::size_t classes,
-                                              double max_sq_distance, const TrainOptions& options) {
-    const bool joint = options.codebook == CodebookKind::joint;
-    Random random(options.seed);
-    Codebook<Dimension> codebook{
-        .words = {}, .mean_sq_length = {}, .group = {}, .max_sq_distance = max_sq_distance};
-    for (std::uint32_t group = 0; group < (joint ? 1 : classes); ++group) {
-        std::vector<std::size_t> rows;
-        for (std::size_t i = 0; i < descriptors.size(); ++i)
-            if (joint || seen[i].class_index == group) rows.push_back(i);
-        if (rows.size() > options.max_cluster_features) {
-            std::vector<std::size_t> part = random_part(rows.size(), options.max_cluster_features, random);
-            for (std::size_t& row : part) row = rows[row];
-            rows = std::move(part);
-        }
-        const auto words = build_codebook(chosen_as_float(descriptors, std::span<const std::size_t>(rows)),
-                                          max_sq_distance, options.min_cluster_size, group, options.threads);
-        for (std::size_t w = 0; w < words.size(); ++w) {
-            codebook.words.push_back(words.words.row(w));
-            codebook.mean_sq_length.push_back(words.mean_sq_length[w]);
-            codebook.group.push_back(group);
-            codebook.sizes.push_back(words.sizes[w]);
-        }
-    }
-    return codebook;
-}
 
 /// What each word was seen as: every match is an occurrence.
 template <Detector D, Descriptor Desc>
