@@ -35,7 +35,9 @@ struct Rows {
     double cut = 0;
     [[nodiscard]] std::size_t size() const { return values.size() / Descriptor::dimension; }
     [[nodiscard]] ism::MergeTrace trace(double max_sq_distance, unsigned threads) const {
-        return ism::trace_average_link({Descriptor::dimension, values, {}, {}}, {max_sq_distance, threads});
+        return ism::trace_average_link(
+            {.dimension = Descriptor::dimension, .means = values, .mean_sq_lengths = {}, .sizes = {}},
+            {.max_sq_distance = max_sq_distance, .threads = threads});
     }
 };
 
