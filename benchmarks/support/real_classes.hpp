@@ -34,7 +34,7 @@ template <ism::Detector D, ism::Descriptor Desc>
                 if (!image.objects[o].crowd) sets.back().emplace_back(image, o);
         longest = std::max(longest, sets.back().size());
     }
-    ManyClasses result{.what = "real objects, each a class, one picture each"};
+    ManyClasses result{.what = "real objects as classes, one picture each"};
     for (std::size_t turn = 0; turn < longest && result.images.size() < count; ++turn) {
         std::vector<ism::TrainingImage> round(sets.size());
         ism::parallel_for(sets.size(), 0, [&](std::size_t s) {

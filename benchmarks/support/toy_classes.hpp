@@ -19,7 +19,7 @@ namespace bench {
 /// a toy differs from others of its kind in shape and print.
 [[nodiscard]] inline ManyClasses toy_classes(std::size_t count) {
     const std::size_t kinds = toy::class_names().size();
-    ManyClasses result{.what = "toys, each a class, two views each (synthetic)"};
+    ManyClasses result{.what = "toys as classes, two views each (synthetic)"};
     for (std::size_t c = 0; c < count; ++c)
         result.names.push_back(toy::class_names()[c % kinds] + " " + std::to_string(c / kinds));
     result.images.resize(2 * count);

@@ -116,7 +116,10 @@ TEST_CASE("a judge sees the bins of its own boxes and an even part of the others
         const auto row = lessons.row(i);
         CHECK(std::vector<ism::BinValue>(row.begin(), row.end()) == expected[i]);
     }
-    CHECK(ism::detail::judge_lessons(samples, 2, 0, 100).rows() == 12);
+    samples.push_back({.box = {}, .shows = background, .taken_for = 0});  // a box without words
+    CHECK(ism::detail::judge_lessons(samples, 2, 0, 100).rows() == 13);
+    CHECK(ism::fit_appearance(samples, 2, 3).classes() == 3);
+    samples.pop_back();
     CHECK(ism::detail::judge_lessons(samples, 2, 0, 0).rows() == 3);
     CHECK(ism::detail::judge_lessons(samples, 2, 5, 3).bins.empty());  // nothing shows this class
     CHECK_THROWS_WITH(ism::fit_appearance(samples, 1, 2),

@@ -28,10 +28,11 @@ template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel, Verifier V = Mdl>
                                              const V& verifier = {}) {
     auto hypotheses = vote_for<Space, K>(features, matches, shapes, frame, options);
     if (!shapes.appearance.empty()) {
-        for (Detection& hypothesis : hypotheses)
-            hypothesis.score *= shapes.appearance.probability(
-                hypothesis.class_index,
-                word_histogram(features, matches, shapes.first.size() - 1, hypothesis.box));
+        const std::size_t words = shapes.first.size() - 1;
+        parallel_for(hypotheses.size(), options.threads, [&](std::size_t i) {
+            const auto box = word_histogram(features, matches, words, hypotheses[i].box);
+            hypotheses[i].score *= shapes.appearance.probability(hypotheses[i].class_index, box);
+        });
         std::stable_sort(hypotheses.begin(), hypotheses.end(),
                          [](const Detection& a, const Detection& b) { return a.score > b.score; });
     }

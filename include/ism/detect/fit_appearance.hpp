@@ -39,7 +39,7 @@ namespace detail {
 
 /// What the judge of one class learns from: rows of the bins it sees.
 struct JudgeLessons {
-    std::vector<std::uint32_t> bins;       // that it sees, rising: those of `own` boxes
+    std::vector<std::uint32_t> bins;       // that it sees, rising
     std::vector<BinValue> values;          // row after row, bins by their place in `bins`
     std::vector<std::size_t> first = {0};  // of each row
     std::vector<bool> shows;               // whether it shows the class
@@ -50,7 +50,8 @@ struct JudgeLessons {
     }
 };
 
-/// The boxes that show the class or were taken for it, and an even part of those that show another.
+/// The boxes that show the class or were taken for it, which tell the bins, and an even part of those that
+/// show another.
 /// @param words  of the codebook
 [[nodiscard]] inline JudgeLessons judge_lessons(std::span<const AppearanceSample> samples, std::size_t words,
                                                 std::size_t class_index, std::size_t max_others) {
@@ -122,9 +123,9 @@ struct JudgeLessons {
                                                std::size_t classes, const AppearanceOptions& options = {},
                                                unsigned threads = 0) {
     for (const AppearanceSample& s : samples)
-        expect(s.box.empty() || s.box.back().bin < Appearance::cells * words,
-               "judge of boxes: bin of a sample", join_text("below ", Appearance::cells * words),
-               s.box.back().bin);
+        if (!s.box.empty())
+            expect(s.box.back().bin < Appearance::cells * words, "judge of boxes: bin of a sample",
+                   join_text("below ", Appearance::cells * words), s.box.back().bin);
     std::vector<std::vector<BinValue>> weights(classes);
     std::vector<float> bias(classes);
     parallel_for(classes, threads, [&](std::size_t c) {

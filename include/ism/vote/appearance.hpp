@@ -70,14 +70,17 @@ struct Appearance {
                                                           const Box& box) {
     std::vector<BinValue> bins;
     double total = 0;
-    for (const Match& match : matches) {
-        const Feature& f = features[match.feature];
+    for (std::size_t i = 0, end = 0; i < matches.size(); i = end) {  // the matches of a feature
+        const Feature& f = features[matches[i].feature];
+        while (end < matches.size() && matches[end].feature == matches[i].feature) ++end;
         const double u = (double(f.x) - box.x) / box.width, v = (double(f.y) - box.y) / box.height;
         if (!(u >= 0 && v >= 0 && u < 1 && v < 1)) continue;
         const std::size_t quarter = 1 + std::size_t(u >= 0.5) + 2 * std::size_t(v >= 0.5);
-        bins.push_back({match.word, match.weight});
-        bins.push_back({static_cast<std::uint32_t>(quarter * words + match.word), match.weight});
-        total += 2 * double(match.weight);
+        for (const Match& match : matches.subspan(i, end - i)) {
+            bins.push_back({match.word, match.weight});
+            bins.push_back({static_cast<std::uint32_t>(quarter * words + match.word), match.weight});
+            total += 2 * double(match.weight);
+        }
     }
     std::stable_sort(bins.begin(), bins.end(),
                      [](const BinValue& a, const BinValue& b) { return a.bin < b.bin; });
