@@ -179,9 +179,9 @@ private:
                    .y_label = "ms a picture (logarithm to base 10)"};
     double low = 1e9, high = -1e9;
     for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-        ism::PlotCurve curve{.name = ism::join_text(kinds[kind], ": classes to the power ",
-                                                    bench::number(exponent(points, kind))),
-                             .color = ism::class_color(kind)};
+        ism::PlotCurve curve{.name = kinds[kind], .color = ism::class_color(kind)};
+        if (points.back().classes >= 32)
+            curve.name += ": classes to the power " + bench::number(exponent(points, kind));
         for (const Point& p : points) {
             curve.x.push_back(std::log2(double(p.classes)));
             curve.y.push_back(std::log10(p.ms[kind]));
@@ -232,11 +232,12 @@ void scale(const bench::ManyClasses& classes, const Settings& settings, const fs
             if (p.classes == count) return p.ms[0];
         return std::nan("");
     };
-    std::printf(
-        "joint: time from 4 to 128 classes x %.2f; exponent over 16 ... %zu classes %.2f "
-        "(a codebook a class %.2f, a model a class %.2f)\n\n",
-        at(128) / at(4), points.back().classes, exponent(points, 0), exponent(points, 1),
-        exponent(points, 2));
+    if (most >= 128)
+        std::printf(
+            "joint: time from 4 to 128 classes x %.2f; exponent over 16 ... %zu classes %.2f "
+            "(a codebook a class %.2f, a model a class %.2f)\n\n",
+            at(128) / at(4), points.back().classes, exponent(points, 0), exponent(points, 1),
+            exponent(points, 2));
     ism::write_file(svg, [&](std::ostream& out) { out << ism::to_svg(plot_of(points, classes.what)); });
 }
 
