@@ -60,6 +60,7 @@ TEST_CASE("judges move with their words, by hand") {
     CHECK(ism::moved_appearance({}, word_now, 4).empty());
     CHECK_THROWS_WITH(ism::moved_appearance(before, std::vector<std::uint32_t>{0}, 4),
                       "judge of boxes: bin: expected below 5, got 5");
+    CHECK_THROWS_WITH(ism::moved_appearance(before, {}, 4), Catch::Contains("words of before"));
     CHECK_THROWS_WITH(ism::moved_appearance(before, word_now, 1), Catch::Contains("word now"));
 }
 

@@ -21,6 +21,7 @@ namespace ism {
 /// @throws Error where the judge has bins of other words, or there are fewer words now than `word_now` tells.
 [[nodiscard]] inline Appearance moved_appearance(const Appearance& before,
                                                  std::span<const std::uint32_t> word_now, std::size_t words) {
+    expect(before.weights.empty() || !word_now.empty(), "judge of boxes: words of before", "1 or more", 0);
     std::vector<float> became(words, 0);
     for (const std::uint32_t w : word_now) {
         expect(w < words, "judge of boxes: word now", join_text("below ", words), w);
