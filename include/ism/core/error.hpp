@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <locale>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -24,6 +25,7 @@ class FileError : public Error {
 template <class... Parts>
 [[nodiscard]] std::string join_text(const Parts&... parts) {
     std::ostringstream text;
+    text.imbue(std::locale::classic());  // the same text wherever the program runs
     (text << ... << parts);
     return text.str();
 }

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ism/core/number_text.hpp"
 #include "ism/evaluate/evaluate.hpp"
 
 namespace ism {
@@ -18,9 +18,7 @@ namespace detail {
 /// 0.8345 as "83.5"; NaN as "-".
 [[nodiscard]] inline std::string percent_text(double share) {
     if (std::isnan(share)) return "-";
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.1f", 100 * share);
-    return text;
+    return fixed_text(100 * share, 1);
 }
 
 /// Number of characters of UTF-8 text.

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "ism/core/image.hpp"
+#include "ism/core/number_text.hpp"
 
 namespace ism {
 
@@ -67,17 +67,7 @@ namespace detail {
 
 /// @brief "#rrggbb"
 [[nodiscard]] inline std::string hex_color(Rgb color) {
-    char text[8];
-    std::snprintf(text, sizeof(text), "#%02x%02x%02x", color.r, color.g, color.b);
-    return text;
-}
-
-/// @brief A number with at most `digits` digits that count, without needless zeros; NaN as "–".
-[[nodiscard]] inline std::string number_text(double value, int digits = 4) {
-    if (std::isnan(value)) return "\u2013";
-    char text[48];
-    std::snprintf(text, sizeof(text), "%.*g", digits, value);
-    return text;
+    return "#" + hex_text(color.r, 2) + hex_text(color.g, 2) + hex_text(color.b, 2);
 }
 
 /// @brief Bytes as base64 text (RFC 4648).

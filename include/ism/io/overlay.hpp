@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdio>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ism/core/number_text.hpp"
 #include "ism/io/overlay_close_up.hpp"
 #include "ism/io/overlay_panels.hpp"
 
@@ -84,14 +84,11 @@ inline void check_segmentation(const Segmentation& part) {
     draw_contour(cut, mask, color, int(pen));
 
     const std::array panels{std::move(votes), std::move(figure), std::move(ground), std::move(cut)};
-    char brightest[48];
-    std::snprintf(brightest, sizeof(brightest), ", brightest %.2g", double(top));
-    char distance[32] = "";
-    if (is_depth(detection.depth_m))
-        std::snprintf(distance, sizeof(distance), ", %.2f m away", detection.depth_m);
+    const std::string distance =
+        is_depth(detection.depth_m) ? ", " + fixed_text(detection.depth_m, 2) + " m away" : "";
     const std::array<std::string, 4> captions{
         join_text(detection.support.size(), detection.support.size() == 1 ? " vote" : " votes", distance),
-        join_text("p(figure)", brightest), "p(ground), same scale",
+        "p(figure), brightest " + number_text(double(top), 2), "p(ground), same scale",
         mask_area(part.mask) > 0 ? "segmentation" : "no segmentation"};
     return detail::captioned_row(panels, captions);
 }

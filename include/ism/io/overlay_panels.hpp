@@ -6,11 +6,11 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
-#include <cstdio>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "ism/core/number_text.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/io/draw.hpp"
 #include "ism/io/draw_mask.hpp"
@@ -49,9 +49,7 @@ namespace ism::detail {
 [[nodiscard]] inline std::string label_text(const Detection& detection, std::span<const std::string> names) {
     expect(detection.class_index < names.size(), "class of a detection", join_text("below ", names.size()),
            detection.class_index);
-    char score[32];
-    std::snprintf(score, sizeof(score), "%.3g", detection.score);
-    return names[detection.class_index] + " " + score;
+    return names[detection.class_index] + " " + number_text(detection.score, 3);
 }
 
 /// Writes a label at a box: above it, or where that place is outside the picture or `used` already, inside

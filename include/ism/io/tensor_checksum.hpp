@@ -5,10 +5,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <string>
 
+#include "ism/core/number_text.hpp"
 #include "ism/io/tensor.hpp"
 
 namespace ism::detail {
@@ -29,11 +29,7 @@ public:
         mix(count);
     }
     void add(const std::string& text) { add(text.data(), text.size()); }
-    [[nodiscard]] std::string text() const {
-        char digits[17];
-        std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));
-        return digits;
-    }
+    [[nodiscard]] std::string text() const { return hex_text(state_, 16); }
 
 private:
     void step(const char* at, std::size_t count) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <locale>
 #include <ostream>
 #include <random>
 #include <span>
@@ -114,6 +115,7 @@ void write_file(const std::filesystem::path& path, Write&& write) {
     };
     errno = 0;
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
+    stream.imbue(std::locale::classic());
     if (!stream) throw FileError(text + ": expected a place to write to, got " + detail::system_reason());
     try {
         std::forward<Write>(write)(static_cast<std::ostream&>(stream));
