@@ -76,8 +76,8 @@ int main(int argc, char** argv) try {
     const std::vector<ByteImage> images = bench::photographs(files);
 
     using Dog = ism::DifferenceOfGaussians;
-    using Hessian = ism::HessianLaplace;
-    using Harris = ism::HarrisLaplace;
+    using Hessian [[maybe_unused]] = ism::HessianLaplace;  // unused where VLFeat is not installed
+    using Harris [[maybe_unused]] = ism::HarrisLaplace;
     std::vector<Comparison> comparisons;
 #ifdef ISM_HAVE_OPENCV
     comparisons.push_back({"DoG + SIFT", Ours::make<Dog>, bench::opencv_sift()});

@@ -9,9 +9,11 @@
 #if defined(_MSVC_LANG)
 #if _MSVC_LANG < 202002L
 #error "ism needs C++20: compile with /std:c++20"
+#include "ism_needs_C++20"  // no such file: the compilation ends here, not after thousands of errors
 #endif
 #elif __cplusplus < 202002L
 #error "ism needs C++20: compile with -std=c++20"
+#include "ism_needs_C++20"  // no such file: the compilation ends here, not after thousands of errors
 #endif
 
 /// @brief 1 where the headers that read or write JSON can be included (nlohmann_json is installed).

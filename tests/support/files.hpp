@@ -34,6 +34,23 @@ private:
     std::filesystem::path path_;
 };
 
+/// @brief Makes a folder the current one for as long as it lives.
+class WorkingFolder {
+public:
+    explicit WorkingFolder(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) {
+        std::filesystem::current_path(folder);
+    }
+    ~WorkingFolder() {
+        std::error_code ignored;
+        std::filesystem::current_path(before_, ignored);
+    }
+    WorkingFolder(const WorkingFolder&) = delete;
+    WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+private:
+    std::filesystem::path before_;
+};
+
 /// @brief The message of the E that `call` throws; "nothing thrown" where it throws nothing.
 template <class E = Error, std::invocable Call>
 [[nodiscard]] std::string error_message(Call&& call) {

@@ -280,6 +280,17 @@ TEST_CASE("A frame is read with its depth in metres and its camera") {
     CHECK(error() == color_file + ": expected 21x16 pixels as its data set says, got 20x16");
 }
 
+TEST_CASE("A data set is written to a bare file name, and its files are named from there") {
+    const TemporaryFolder folder;
+    const ism::test::WorkingFolder inside(folder.path());
+    const Dataset dataset{.class_names = {"cup"},
+                          .category_ids = {1},
+                          .images = {{.id = 1, .file = "images/a.png", .width = 20, .height = 16}}};
+    ism::write_dataset("out.json", dataset);
+    CHECK(ism::read_text("out.json").find(R"("file_name":"images/a.png")") != std::string::npos);
+    CHECK(ism::read_dataset("out.json").images == dataset.images);
+}
+
 TEST_CASE("A data set that is written comes back equal, in the same bytes every time") {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder / "labels");

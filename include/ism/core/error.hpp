@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "ism/config.hpp"
+
 namespace ism {
 
 /// @brief Base of every exception this library throws. The message is one line and names the value or

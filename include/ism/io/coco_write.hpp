@@ -15,12 +15,13 @@ namespace ism {
 
 namespace detail {
 
-/// @brief `file` as seen from `folder`, by the names alone; whole where the two have nothing in common.
+/// @brief `file` as seen from `folder` (empty: the current one), by the names alone; whole where the two have
+/// nothing in common.
 [[nodiscard]] inline std::filesystem::path relative_to(const std::filesystem::path& file,
                                                        const std::filesystem::path& folder) {
     const auto whole = std::filesystem::absolute(file).lexically_normal();
-    const auto relative =
-        whole.lexically_relative((std::filesystem::absolute(folder) / "").lexically_normal());
+    const auto from = std::filesystem::absolute(folder.empty() ? "." : folder) / "";
+    const auto relative = whole.lexically_relative(from.lexically_normal());
     return relative.empty() ? whole : relative;
 }
 
