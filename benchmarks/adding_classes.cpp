@@ -15,13 +15,13 @@
 #include <CLI/CLI.hpp>
 
 #include "ism/core/parallel.hpp"
-#include "ism/detect/add_classes.hpp"
+#include "ism/dataset/coco.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/evaluate/evaluate.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/io/coco.hpp"
+#include "ism/train/add_classes.hpp"
+#include "ism/train/train.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 
 #include "support/catch.hpp"
 
-#include "ism/codebook/cluster.hpp"
-#include "ism/codebook/growing_clusters.hpp"
+#include "ism/cluster/cluster.hpp"
+#include "ism/cluster/growing_clusters.hpp"
 #include "ism/core/random.hpp"
 
 namespace {

@@ -26,12 +26,12 @@
 #include <CLI/CLI.hpp>
 
 #include "ism/detect/detect.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/io/color.hpp"
-#include "ism/io/svg.hpp"
 #include "ism/io/write_file.hpp"
+#include "ism/show/color.hpp"
+#include "ism/show/svg.hpp"
+#include "ism/train/train.hpp"
 
 namespace {
 

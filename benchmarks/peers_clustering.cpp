@@ -21,8 +21,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "ism/codebook/cluster.hpp"
-#include "ism/detect/train.hpp"
+#include "ism/cluster/cluster.hpp"
+#include "ism/train/train.hpp"
 
 namespace {
 

@@ -15,15 +15,15 @@
 #include "support/rows.hpp"
 #include <CLI/CLI.hpp>
 
+#include "ism/dataset/coco.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/evaluate/evaluate.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/io/coco.hpp"
-#include "ism/io/color.hpp"
-#include "ism/io/svg.hpp"
 #include "ism/io/write_file.hpp"
+#include "ism/show/color.hpp"
+#include "ism/show/svg.hpp"
+#include "ism/train/train.hpp"
 
 namespace {
 

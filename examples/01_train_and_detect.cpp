@@ -8,11 +8,11 @@
 
 #include "toy_lessons.hpp"
 
+#include "ism/dataset/coco.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/io/coco.hpp"
+#include "ism/train/train.hpp"
 
 int main(int argc, char** argv) try {
     std::vector<std::string> names = toy::class_names();

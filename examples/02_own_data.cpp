@@ -9,14 +9,14 @@
 #include <exception>
 
 #include "ism/core/frame.hpp"
+#include "ism/dataset/coco.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/table.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/io/coco.hpp"
-#include "ism/io/model_file.hpp"
+#include "ism/model_file/model_file.hpp"
+#include "ism/train/train.hpp"
 
 int main(int argc, char** argv) try {
     if (argc != 5) {

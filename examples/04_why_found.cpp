@@ -9,11 +9,11 @@
 #include "toy_lessons.hpp"
 
 #include "ism/detect/detect.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/io/overlay.hpp"
 #include "ism/io/png.hpp"
+#include "ism/show/overlay.hpp"
+#include "ism/train/train.hpp"
 
 int main() try {
     const auto model =

@@ -13,8 +13,8 @@
 #include "ism/feature/extract.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/io/draw.hpp"
 #include "ism/io/png.hpp"
+#include "ism/show/draw.hpp"
 
 int main(int argc, char** argv) try {
     constexpr double region_scales = 3;

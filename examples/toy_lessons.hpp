@@ -10,8 +10,8 @@
 #include "toy/isolated.hpp"
 
 #include "ism/core/frame.hpp"
-#include "ism/detect/training_image.hpp"
 #include "ism/io/images.hpp"
+#include "ism/train/training_image.hpp"
 
 namespace toy {
 

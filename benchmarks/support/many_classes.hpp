@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ism/core/frame.hpp"
-#include "ism/detect/harvest.hpp"
+#include "ism/train/harvest.hpp"
 
 namespace bench {
 

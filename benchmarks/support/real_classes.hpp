@@ -12,8 +12,8 @@
 #include "support/many_classes.hpp"
 
 #include "ism/core/parallel.hpp"
+#include "ism/dataset/coco.hpp"
 #include "ism/feature/extract.hpp"
-#include "ism/io/coco.hpp"
 
 namespace bench {
 

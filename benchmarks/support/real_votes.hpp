@@ -8,11 +8,11 @@
 
 #include "ism/core/frame.hpp"
 #include "ism/core/random.hpp"
-#include "ism/detect/train.hpp"
+#include "ism/dataset/coco.hpp"
 #include "ism/feature/depth.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/io/coco.hpp"
+#include "ism/train/train.hpp"
 #include "ism/vote/cast.hpp"
 
 namespace bench {

@@ -16,8 +16,8 @@
 
 #include "ism/codebook/byte_codebook.hpp"
 #include "ism/codebook/codebook.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/feature/byte_sift.hpp"
+#include "ism/train/train.hpp"
 
 namespace bench {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "ism/core/camera.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/evaluate/coco.hpp"
+#include "ism/train/train.hpp"
 
 namespace program {
 

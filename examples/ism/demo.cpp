@@ -16,7 +16,7 @@
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"
-#include "ism/io/report_detections.hpp"
+#include "ism/show/report_detections.hpp"
 
 namespace program {
 

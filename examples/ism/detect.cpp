@@ -10,8 +10,8 @@
 #include "progress.hpp"
 
 #include "ism/core/parallel.hpp"
-#include "ism/io/coco.hpp"
-#include "ism/io/report_detections.hpp"
+#include "ism/dataset/coco.hpp"
+#include "ism/show/report_detections.hpp"
 
 namespace program {
 

@@ -5,10 +5,10 @@
 #include "commands.hpp"
 #include "input.hpp"
 
+#include "ism/dataset/coco.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"
-#include "ism/io/coco.hpp"
 
 namespace program {
 

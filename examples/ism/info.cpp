@@ -5,7 +5,7 @@
 #include "commands.hpp"
 #include "input.hpp"
 
-#include "ism/io/model_file.hpp"
+#include "ism/model_file/model_file.hpp"
 
 namespace program {
 

@@ -11,7 +11,7 @@
 #include "progress.hpp"
 
 #include "ism/core/parallel.hpp"
-#include "ism/io/coco_write.hpp"
+#include "ism/dataset/coco_write.hpp"
 #include "ism/io/write_file.hpp"
 
 namespace program {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "ism/core/error.hpp"
-#include "ism/io/dataset.hpp"
+#include "ism/dataset/dataset.hpp"
 
 namespace program {
 

@@ -4,7 +4,7 @@
 
 #include "input.hpp"
 
-#include "ism/io/model_file.hpp"
+#include "ism/model_file/model_file.hpp"
 
 namespace program {
 

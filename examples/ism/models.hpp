@@ -12,16 +12,16 @@
 
 #include "commands.hpp"
 
+#include "ism/dataset/dataset.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/frame_matcher.hpp"
-#include "ism/detect/model.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/feature/dense_grid.hpp"
 #include "ism/feature/difference_of_gaussians.hpp"
 #include "ism/feature/harris_laplace.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/io/dataset.hpp"
+#include "ism/model/model.hpp"
+#include "ism/train/train.hpp"
 
 namespace program {
 

@@ -9,10 +9,10 @@
 #include "input.hpp"
 #include "models.hpp"
 
-#include "ism/detect/add_classes.hpp"
 #include "ism/detect/frame_matcher.hpp"
-#include "ism/io/model_file.hpp"
 #include "ism/io/write_file.hpp"
+#include "ism/model_file/model_file.hpp"
+#include "ism/train/add_classes.hpp"
 
 // The bodies of the templates of models.hpp; each models_*.cpp compiles them for one detector.
 namespace program {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <set>
 
-#include "ism/io/overlay.hpp"
+#include "ism/dataset/rle.hpp"
 #include "ism/io/png.hpp"
-#include "ism/io/rle.hpp"
+#include "ism/show/overlay.hpp"
 
 namespace program {
 

@@ -11,8 +11,8 @@
 #include "models.hpp"
 
 #include "ism/core/image.hpp"
-#include "ism/io/coco_results.hpp"
-#include "ism/io/report.hpp"
+#include "ism/dataset/coco_results.hpp"
+#include "ism/show/report.hpp"
 
 namespace program {
 

@@ -9,8 +9,8 @@
 #include "models.hpp"
 #include "progress.hpp"
 
-#include "ism/io/coco.hpp"
-#include "ism/io/model_file.hpp"
+#include "ism/dataset/coco.hpp"
+#include "ism/model_file/model_file.hpp"
 
 namespace program {
 

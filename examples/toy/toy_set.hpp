@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "ism/core/parallel.hpp"
-#include "ism/io/coco.hpp"
-#include "ism/io/coco_write.hpp"
+#include "ism/dataset/coco.hpp"
+#include "ism/dataset/coco_write.hpp"
 #include "ism/io/png.hpp"
 
 namespace toy {

@@ -7,7 +7,6 @@
 /// the headers of ism/io (stb, nlohmann_json), figures are measured by those of ism/evaluate.
 
 #include "ism/detect/detect.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/feature/byte_sift.hpp"
 #include "ism/feature/dense_grid.hpp"
 #include "ism/feature/difference_of_gaussians.hpp"
@@ -15,4 +14,5 @@
 #include "ism/feature/harris_laplace.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
+#include "ism/train/train.hpp"
 #include "ism/version.hpp"

@@ -6,7 +6,7 @@
 #include "support/data.hpp"
 
 #include "ism/core/geometry.hpp"
-#include "ism/io/coco.hpp"
+#include "ism/dataset/coco.hpp"
 
 TEST_CASE("every annotated mask decodes to its box and packs to the same text") {
     for (const std::string name : {"eth80-side/all", "msrc/val", "osd/val", "sysu-shapes/val",

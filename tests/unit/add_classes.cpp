@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
-#include "ism/detect/add_classes.hpp"
+#include "ism/train/add_classes.hpp"
 
 #include <array>
 #include <cmath>
@@ -11,10 +11,10 @@
 
 #include "ism/core/random.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/feature/gray_patch.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
+#include "ism/train/train.hpp"
 
 namespace {
 

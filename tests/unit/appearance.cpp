@@ -6,7 +6,7 @@
 #include "support/catch.hpp"
 
 #include "ism/core/random.hpp"
-#include "ism/detect/learn_appearance.hpp"
+#include "ism/train/learn_appearance.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
-#include "ism/codebook/codebook.hpp"
+#include "ism/codebook/build_codebook.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 
 #include "support/catch.hpp"
 
-#include "ism/codebook/cluster.hpp"
-#include "ism/codebook/information_gain.hpp"
+#include "ism/cluster/cluster.hpp"
 #include "ism/core/random.hpp"
+#include "ism/train/information_gain.hpp"
 
 TEST_CASE("a codebook holds the means of the clusters that are large enough") {
     ism::Descriptors<float, 2> descriptors(5);

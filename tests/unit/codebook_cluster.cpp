@@ -11,7 +11,7 @@
 
 #include "support/catch.hpp"
 
-#include "ism/codebook/cluster.hpp"
+#include "ism/cluster/cluster.hpp"
 #include "ism/core/random.hpp"
 
 namespace {

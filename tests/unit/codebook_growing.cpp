@@ -9,8 +9,8 @@
 
 #include "support/catch.hpp"
 
-#include "ism/codebook/cluster.hpp"
-#include "ism/codebook/growing_clusters.hpp"
+#include "ism/cluster/cluster.hpp"
+#include "ism/cluster/growing_clusters.hpp"
 #include "ism/core/random.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
-#include "ism/detect/grow_appearance.hpp"
+#include "ism/train/grow_appearance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "support/catch.hpp"
 
 #include "ism/core/random.hpp"
-#include "ism/detect/remembered_boxes.hpp"
+#include "ism/train/remembered_boxes.hpp"
 
 namespace {
 

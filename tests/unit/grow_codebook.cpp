@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
-#include "ism/codebook/grow_codebook.hpp"
+#include "ism/train/grow_codebook.hpp"
 
 #include <cstdint>
 #include <limits>

@@ -7,8 +7,8 @@
 #include "support/catch.hpp"
 #include "support/files.hpp"
 
-#include "ism/io/coco.hpp"
-#include "ism/io/coco_write.hpp"
+#include "ism/dataset/coco.hpp"
+#include "ism/dataset/coco_write.hpp"
 
 using ism::Box;
 using ism::Camera;

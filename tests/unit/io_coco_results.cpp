@@ -7,7 +7,7 @@
 #include "support/catch.hpp"
 #include "support/files.hpp"
 
-#include "ism/io/coco_results.hpp"
+#include "ism/dataset/coco_results.hpp"
 
 using ism::Box;
 using ism::FileError;

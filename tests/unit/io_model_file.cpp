@@ -17,7 +17,7 @@
 #include "ism/feature/harris_laplace.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/io/model_file.hpp"
+#include "ism/model_file/model_file.hpp"
 
 using ism::FileError;
 using ism::test::error_message;

@@ -8,7 +8,7 @@
 #include "support/files.hpp"
 
 #include "ism/core/random.hpp"
-#include "ism/io/polygon.hpp"
+#include "ism/dataset/polygon.hpp"
 
 using ism::Mask;
 using ism::Point2;

@@ -8,7 +8,7 @@
 
 #include "ism/core/geometry.hpp"
 #include "ism/core/random.hpp"
-#include "ism/io/rle.hpp"
+#include "ism/dataset/rle.hpp"
 
 using ism::CompressedRle;
 using ism::Mask;

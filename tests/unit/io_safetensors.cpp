@@ -12,7 +12,7 @@
 #include "support/files.hpp"
 
 #include "ism/core/random.hpp"
-#include "ism/io/safetensors.hpp"
+#include "ism/model_file/safetensors.hpp"
 
 using ism::FileError;
 using ism::Tensor;

@@ -4,7 +4,7 @@
 
 #include "support/catch.hpp"
 
-#include "ism/detect/train.hpp"
+#include "ism/train/train.hpp"
 
 using Approx = Catch::Detail::Approx;
 

@@ -12,9 +12,9 @@
 #include "support/catch.hpp"
 
 #include "ism/core/random.hpp"
-#include "ism/io/draw.hpp"
-#include "ism/io/draw_mask.hpp"
-#include "ism/io/font.hpp"
+#include "ism/show/draw.hpp"
+#include "ism/show/draw_mask.hpp"
+#include "ism/show/font.hpp"
 
 using ism::Point2;
 using ism::Rgb;

@@ -6,7 +6,7 @@
 
 #include "support/catch.hpp"
 
-#include "ism/io/overlay.hpp"
+#include "ism/show/overlay.hpp"
 
 using ism::Rgb;
 using ism::RgbImage;

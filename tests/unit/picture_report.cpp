@@ -10,9 +10,9 @@
 #include "support/catch.hpp"
 
 #include "ism/evaluate/plot.hpp"
-#include "ism/io/report.hpp"
-#include "ism/io/report_detections.hpp"
-#include "ism/io/svg.hpp"
+#include "ism/show/report.hpp"
+#include "ism/show/report_detections.hpp"
+#include "ism/show/svg.hpp"
 
 namespace {
 

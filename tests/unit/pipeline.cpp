@@ -11,11 +11,11 @@
 
 #include "ism/core/random.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/detect/train.hpp"
 #include "ism/feature/dense_grid.hpp"
 #include "ism/feature/gray_patch.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
+#include "ism/train/train.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
-#include "ism/detect/select_words.hpp"
+#include "ism/train/select_words.hpp"
 
 #include <vector>
 

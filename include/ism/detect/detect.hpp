@@ -12,10 +12,10 @@
 #include "ism/detect/detection.hpp"
 #include "ism/detect/frame_matcher.hpp"
 #include "ism/detect/hypotheses.hpp"
-#include "ism/detect/model.hpp"
 #include "ism/detect/segment.hpp"
 #include "ism/detect/verify.hpp"
-#include "ism/vote/appearance.hpp"
+#include "ism/model/appearance.hpp"
+#include "ism/model/model.hpp"
 
 namespace ism {
 

@@ -7,9 +7,9 @@
 
 #include "ism/codebook/match.hpp"
 #include "ism/core/frame.hpp"
-#include "ism/detect/model.hpp"
 #include "ism/feature/depth.hpp"
 #include "ism/feature/extract.hpp"
+#include "ism/model/model.hpp"
 
 namespace ism {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "ism/detect/detection.hpp"
+#include "ism/model/occurrence.hpp"
 #include "ism/vote/axes.hpp"
-#include "ism/vote/occurrence.hpp"
 
 namespace ism {
 

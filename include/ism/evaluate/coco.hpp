@@ -14,9 +14,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ism/dataset/coco_results.hpp"
+#include "ism/dataset/dataset.hpp"
 #include "ism/evaluate/evaluate.hpp"
-#include "ism/io/coco_results.hpp"
-#include "ism/io/dataset.hpp"
 
 namespace ism {
 

@@ -7,7 +7,7 @@
 
 #include "ism/evaluate/evaluate.hpp"
 #include "ism/evaluate/table.hpp"
-#include "ism/io/svg.hpp"
+#include "ism/show/svg.hpp"
 
 namespace ism {
 

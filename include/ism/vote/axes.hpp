@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "ism/feature/feature.hpp"
-#include "ism/vote/occurrence.hpp"
+#include "ism/model/occurrence.hpp"
 
 namespace ism {
 

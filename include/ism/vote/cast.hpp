@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
-#include "ism/vote/occurrence.hpp"
+#include "ism/model/occurrence.hpp"
 #include "ism/vote/vote.hpp"
 #include "ism/vote/vote_space.hpp"
 

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "ism/cluster/cluster_moments.hpp"
+#include "ism/cluster/follow_merges.hpp"
+#include "ism/cluster/live_clusters.hpp"
+#include "ism/cluster/merge_trace.hpp"
+#include "ism/cluster/near_lists.hpp"
+#include "ism/cluster/near_search.hpp"
+#include "ism/core/parallel.hpp"
+
+namespace ism::detail {
+
+/// Average link by merging all reciprocal nearest neighbours of a round at once.
+///
+/// Each cluster has a list of near ones that is complete up to some reach. A merge never brings clusters
+/// nearer to others than the nearer of the two was, so lists stay complete when clusters merge, and a merged
+/// cluster's list follows from those of its two. Only where nothing is left on a list, all are searched.
+class ReciprocalMerging {
+public:
+    /// The first `settled` clusters are known to lie further apart than `max_sq_distance`.
+    ReciprocalMerging(const ClusterMoments& start, double max_sq_distance, std::size_t settled,
+                      unsigned threads)
+        : team_(threads),
+          settled_(settled),
+          live_(start, team_),
+          lists_(start.size(), NearLists::limit_of(max_sq_distance)),
+          merged_(start.size()),
+          alive_(live_.spatial_order()),
+          node_(merged_.now) {
+        trace_.points = std::uint32_t(start.size());
+        trace_.max_sq_distance = max_sq_distance;
+    }
+
+    [[nodiscard]] MergeTrace run() && {
+        merge_equal();
+        const auto last = std::stable_partition(alive_.begin(), alive_.end(),
+                                                [&](std::uint32_t i) { return i >= settled_; });
+        NearSearch(live_, lists_, alive_, {}, std::size_t(alive_.end() - last)).run(team_);
+        while (keep_those_with_neighbours()) {
+            merge_reciprocal();
+            follow_merges();
+            search_again();
+        }
+        sort_merges(trace_);
+        std::erase_if(trace_.merges, [&](const Merge& m) { return m.sq_distance > trace_.max_sq_distance; });
+        return std::move(trace_);
+    }
+
+private:
+    [[nodiscard]] std::uint32_t nearest(std::uint32_t i) const {
+        return lists_.of(i).empty() ? MergedClusters::none : lists_.of(i).front().cluster;
+    }
+
+    /// Merges equal points before any search: many of them would fill each other's lists in every round.
+    void merge_equal() {
+        std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+        for (const std::uint32_t i : alive_) keys.emplace_back(live_.fingerprint(i), i);
+        std::sort(keys.begin(), keys.end());
+        for (std::size_t first = 0, at = 1; at < keys.size(); ++at) {
+            const auto [kept, gone] = std::pair(keys[first].second, keys[at].second);
+            if (keys[first].first != keys[at].first || !live_.equal(kept, gone)) {
+                first = at;
+                continue;
+            }
+            trace_.merges.emplace_back();
+            merge(trace_.merges.size() - 1, kept, gone);
+        }
+        forget_gone();
+    }
+
+    /// Clusters without a neighbour within reach are final: merging others never brings them nearer.
+    bool keep_those_with_neighbours() {
+        std::erase_if(alive_, [&](std::uint32_t i) { return lists_.of(i).empty(); });
+        return !alive_.empty();
+    }
+
+    void merge_reciprocal() {
+        pairs_.clear();
+        for (const std::uint32_t i : alive_)
+            if (const std::uint32_t j = nearest(i); i < j && nearest(j) == i) pairs_.emplace_back(i, j);
+        if (pairs_.empty()) {
+            // rounding took the pair away that must be there: the nearest two
+            const std::uint32_t i =
+                *std::min_element(alive_.begin(), alive_.end(), [&](std::uint32_t a, std::uint32_t b) {
+                    return lists_.of(a).front().sq_distance < lists_.of(b).front().sq_distance;
+                });
+            pairs_.emplace_back(std::minmax(i, nearest(i)));
+        }
+        const std::size_t made = trace_.merges.size();
+        trace_.merges.resize(made + pairs_.size());
+        team_.each(pairs_.size(), [&](std::size_t p, unsigned /*worker*/) {
+            const auto [kept, gone] = pairs_[p];
+            merge(made + p, kept, gone);
+            merged_.partner[kept] = gone;
+        });
+        forget_gone();
+    }
+
+    /// Merge number t.
+    void merge(std::size_t t, std::uint32_t kept, std::uint32_t gone) {
+        const double sq_distance = live_.merge(kept, gone);
+        trace_.merges[t] = {node_[kept], node_[gone], live_.points_of(kept), sq_distance};
+        node_[kept] = trace_.points + std::uint32_t(t);
+        merged_.now[gone] = kept;
+    }
+
+    void forget_gone() {
+        std::erase_if(alive_, [&](std::uint32_t i) { return merged_.now[i] != i; });
+    }
+
+    /// Brings all lists up to date with the merges of the round.
+    void follow_merges() {
+        constexpr std::size_t part = 64;
+        team_.each((alive_.size() + part - 1) / part, [&](std::size_t p, unsigned /*worker*/) {
+            for (std::size_t a = p * part; a < std::min(alive_.size(), (p + 1) * part); ++a)
+                follow(alive_[a], merged_, live_, lists_);
+        });
+        for (const auto& [kept, gone] : pairs_) merged_.partner[kept] = MergedClusters::none;
+    }
+
+    void search_again() {
+        std::vector<std::uint32_t> asking, others;
+        for (const std::uint32_t i : alive_) (lists_.sure(i) ? others : asking).push_back(i);
+        for (const std::uint32_t i : asking) lists_.clear(i, std::numeric_limits<float>::max());
+        if (!asking.empty()) NearSearch(live_, lists_, asking, others).run(team_);
+    }
+
+    Team team_;
+    std::size_t settled_;
+    LiveClusters live_;
+    NearLists lists_;
+    MergedClusters merged_;
+    std::vector<std::uint32_t> alive_;
+    std::vector<std::uint32_t> node_;  // of each cluster in the trace
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+    MergeTrace trace_;
+};
+
+}  // namespace ism::detail

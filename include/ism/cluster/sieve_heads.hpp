@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "ism/cluster/cluster_moments.hpp"
+#include "ism/cluster/principal_directions.hpp"
+#include "ism/cluster/sieve.hpp"
+#include "ism/cluster/spatial_order.hpp"
+#include "ism/core/aligned.hpp"
+#include "ism/core/parallel.hpp"
+
+namespace ism::detail {
+
+/// What the sieve sees of clusters: the coordinates of their means, from the middle of all on, along a few
+/// directions of large spread, and the length across these. A dot product is at most that of the coordinates
+/// and of the lengths across (Cauchy–Schwarz), so that half of a squared distance is at least
+/// half_square + half_square − dot of the heads. Where the points have few numbers these are the head.
+class SieveHeads {
+public:
+    SieveHeads(const ClusterMoments& start, Team& team)
+        : numbers_(start.size() * sieve_depth, 0.0f),
+          sq_length_(start.size()),
+          whole_(start.dimension <= sieve_depth) {
+        using Eigen::Index;
+        const std::size_t count = start.size(), dimension = start.dimension;
+        std::vector<double> sum(dimension, 0.0);
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t k = 0; k < dimension; ++k) sum[k] += start.means[i * dimension + k];
+        const Eigen::VectorXf middle =
+            (Eigen::Map<Eigen::VectorXd>(sum.data(), Index(dimension)) / double(count)).cast<float>();
+
+        const std::size_t sample = whole_ ? 0 : std::min<std::size_t>(count, 512);
+        Eigen::MatrixXf points(dimension, sample);
+        for (std::size_t s = 0; s < sample; ++s)
+            points.col(Index(s)) = Eigen::Map<const Eigen::VectorXf>(
+                                       &start.means[s * count / sample * dimension], Index(dimension)) -
+                                   middle;
+        const Eigen::MatrixXf directions =
+            whole_ ? Eigen::MatrixXf() : principal_directions(points, Index(sieve_depth) - 1);
+
+        constexpr std::size_t block = 256;
+        team.each((count + block - 1) / block, [&](std::size_t part, unsigned /*worker*/) {
+            const std::size_t first = part * block, width = std::min(block, count - first);
+            const Eigen::MatrixXf centred = Eigen::Map<const Eigen::MatrixXf>(&start.means[first * dimension],
+                                                                              Index(dimension), Index(width))
+                                                .colwise() -
+                                            middle;
+            Eigen::Map<Eigen::MatrixXf> heads(numbers_.data() + first * sieve_depth, Index(sieve_depth),
+                                              Index(width));
+            if (whole_)
+                heads.topRows(Index(dimension)) = centred;
+            else
+                heads.topRows(directions.cols()).noalias() = directions.transpose() * centred;
+            for (std::size_t i = 0; i < width; ++i) {
+                sq_length_[first + i] = centred.col(Index(i)).cast<double>().squaredNorm();
+                measure_across(first + i);
+            }
+        });
+    }
+
+    [[nodiscard]] const float* of(std::size_t i) const { return numbers_.data() + i * sieve_depth; }
+
+    /// Half of the mean squared length of a cluster with that spread; less by more than rounding may do.
+    [[nodiscard]] float half_square(std::size_t i, double spread) const {
+        return float(0.5 * (1 - 1e-5) * (sq_length_[i] + spread));
+    }
+
+    /// All clusters, near ones together.
+    [[nodiscard]] std::vector<std::uint32_t> spatial_order() const {
+        std::vector<std::uint32_t> order(sq_length_.size());
+        std::iota(order.begin(), order.end(), 0u);
+        order_spatially(numbers_, sieve_depth, sieve_rows * sieve_columns, order);
+        return order;
+    }
+
+    /// Puts cluster `gone`, of that share of the points of both, into cluster `kept`.
+    /// @param between  squared distance of the means
+    void merge(std::size_t kept, std::size_t gone, double share, double between) {
+        float* to = numbers_.data() + kept * sieve_depth;
+        for (std::size_t k = 0; k < sieve_depth; ++k)
+            to[k] = float((1 - share) * to[k] + share * of(gone)[k]);
+        sq_length_[kept] = std::max(
+            0.0, (1 - share) * sq_length_[kept] + share * sq_length_[gone] - share * (1 - share) * between);
+        measure_across(kept);
+    }
+
+private:
+    /// The length across the directions, longer by more than rounding may do.
+    void measure_across(std::size_t i) {
+        if (whole_) return;
+        float* numbers = numbers_.data() + i * sieve_depth;
+        double along = 0;
+        for (std::size_t k = 0; k + 1 < sieve_depth; ++k) along += double(numbers[k]) * numbers[k];
+        numbers[sieve_depth - 1] =
+            float(std::sqrt(std::max(0.0, sq_length_[i] - along) + 4e-6 * sq_length_[i]));
+    }
+
+    AlignedVector<float> numbers_;
+    std::vector<double> sq_length_;  // from the middle of all
+    bool whole_;                     // the sieve sees all numbers
+};
+
+}  // namespace ism::detail

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ism/dataset/coco_fields.hpp"
+#include "ism/dataset/dataset.hpp"
+#include "ism/io/json.hpp"
+
+namespace ism {
+
+namespace detail {
+
+[[nodiscard]] inline Camera camera_from_json(const Json& value, const std::string& place) {
+    const std::string at = place + ", camera";
+    const Camera camera{number_member(value, "fx", at), number_member(value, "fy", at),
+                        number_member(value, "cx", at), number_member(value, "cy", at)};
+    at_place(place, [&] { check(camera); });
+    return camera;
+}
+
+[[nodiscard]] inline DatasetImage image_from_json(const Json& record, const std::filesystem::path& folder,
+                                                  const std::string& list) {
+    DatasetImage image;
+    image.id = integer_member(record, "id", list);
+    const std::string place = join_text(list, " with id ", image.id);
+    image.file = folder / path_from_json(text_member(record, "file_name", place));
+    const std::int64_t width = integer_member(record, "width", place);
+    const std::int64_t height = integer_member(record, "height", place);
+    if (!is_image_size(width, height))
+        refuse_json(place, "width, height", image_size_limits, join_text(width, "x", height));
+    image.width = int(width), image.height = int(height);
+    if (const Json* depth_file = optional_member(record, "depth_file_name", place)) {
+        image.depth_file = folder / path_from_json(to_text(*depth_file, "depth_file_name", place));
+        image.depth_scale = number_member(record, "depth_scale", place);
+        if (!(image.depth_scale > 0))
+            refuse_json(place, "depth_scale", "metres per unit above 0", join_text(image.depth_scale));
+    }
+    if (const Json* camera = optional_member(record, "camera", place))
+        image.camera = camera_from_json(*camera, place);
+    return image;
+}
+
+/// @brief The mask, and the box that is either given or taken from the mask.
+inline void read_outline(const Json& record, const DatasetImage& image, const std::string& place,
+                         DatasetAnnotation& annotation) {
+    const Json* segmentation = optional_member(record, "segmentation", place);
+    if (segmentation != nullptr && segmentation->is_object()) {
+        CompressedRle packed = rle_from_json(*segmentation, place);
+        if (sides_text(packed) != sides_text(image))
+            refuse_json(place, "segmentation size", sides_text(image), sides_text(packed));
+        annotation.segmentation = std::move(packed);
+    } else if (segmentation != nullptr && segmentation->is_array()) {
+        if (!segmentation->empty()) annotation.segmentation = polygons_from_json(*segmentation, place);
+    } else if (segmentation != nullptr) {
+        refuse_json(place, "segmentation", "run lengths or polygons", json_text(*segmentation));
+    }
+    if (const Json* box = optional_member(record, "bbox", place))
+        annotation.box = box_from_json(*box, place);
+    else if (segmentation != nullptr && !segmentation->empty())
+        annotation.box = at_place(place, [&] { return mask_box(read_mask(image, annotation)); });
+    else
+        refuse_json(place, "bbox", "a box, or a segmentation to take it from", "neither");
+}
+
+[[nodiscard]] inline Dataset dataset_from_json(const Json& root, const std::filesystem::path& path) {
+    const std::string file = file_text(path);
+    Dataset dataset{.source = path};
+    std::map<std::int64_t, std::size_t> class_of, image_of;
+    std::set<std::string> names;
+    std::set<std::int64_t> annotation_ids;
+    for (const Json& record : array_member(root, "categories", file)) {
+        const std::int64_t id = integer_member(record, "id", file + ", category");
+        const std::string place = join_text(file, ", category with id ", id);
+        const std::string& name = text_member(record, "name", place);
+        if (!class_of.emplace(id, class_of.size()).second)
+            refuse_json(place, "id", "each id once", "it twice");
+        if (!names.insert(name).second) refuse_json(place, "name", "each name once", "'" + name + "' twice");
+        dataset.class_names.push_back(name);
+        dataset.category_ids.push_back(id);
+    }
+    for (const Json& record : array_member(root, "images", file)) {
+        dataset.images.push_back(image_from_json(record, path.parent_path(), file + ", image"));
+        const std::int64_t id = dataset.images.back().id;
+        if (!image_of.emplace(id, image_of.size()).second)
+            refuse_json(join_text(file, ", image with id ", id), "id", "each id once", "it twice");
+    }
+    for (const Json& record : array_member(root, "annotations", file)) {
+        DatasetAnnotation annotation;
+        annotation.id = integer_member(record, "id", file + ", annotation");
+        const std::string own = join_text(file, ", annotation with id ", annotation.id);
+        if (!annotation_ids.insert(annotation.id).second) refuse_json(own, "id", "each id once", "it twice");
+        const std::int64_t image_id = integer_member(record, "image_id", own);
+        const auto image_at = image_of.find(image_id);
+        if (image_at == image_of.end())
+            refuse_json(own, "image_id", "the id of one of its images", join_text(image_id));
+        DatasetImage& image = dataset.images[image_at->second];
+        const std::string place = join_text(own, " of image ", image_id, " ('", image.file.string(), "')");
+        const std::int64_t category_id = integer_member(record, "category_id", place);
+        const auto class_at = class_of.find(category_id);
+        if (class_at == class_of.end())
+            refuse_json(place, "category_id", "the id of one of its categories", join_text(category_id));
+        annotation.class_index = class_at->second;
+        if (const Json* crowd = optional_member(record, "iscrowd", place))
+            annotation.crowd =
+                crowd->is_boolean() ? crowd->get<bool>() : to_integer(*crowd, "iscrowd", place) != 0;
+        read_outline(record, image, place, annotation);
+        image.objects.push_back(std::move(annotation));
+    }
+    return dataset;
+}
+
+}  // namespace detail
+
+/// @brief Reads a data set in COCO's JSON: images, categories, annotations with bbox, segmentation (run
+/// lengths as text or array, or polygons), and iscrowd. Per image also depth_file_name, depth_scale (metres
+/// per unit) and camera {fx, fy, cx, cy}. File names count from the JSON's folder. A missing bbox is taken
+/// from the segmentation. Images are not opened yet.
+/// @throws FileError, naming the file, the image and the annotation, where the file cannot be read, is no
+/// JSON (with line and column), lacks a key, repeats an id, names an unknown image or category, or a box,
+/// mask size, depth scale or camera makes no sense.
+[[nodiscard]] inline Dataset read_dataset(const std::filesystem::path& path) {
+    return detail::dataset_from_json(detail::read_json(path), path);
+}
+
+}  // namespace ism

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ism/core/camera.hpp"
+#include "ism/core/geometry.hpp"
+#include "ism/dataset/coco_fields.hpp"
+#include "ism/dataset/rle.hpp"
+#include "ism/io/json.hpp"
+#include "ism/io/write_file.hpp"
+
+namespace ism {
+
+/// @brief One object found in an image of a data set, as written to and read from files.
+struct Result {
+    std::int64_t image_id = 0;     ///< DatasetImage::id
+    std::int64_t category_id = 0;  ///< of Dataset::category_ids
+    Box box;                       ///< pixels; may reach outside the image
+    double score = 0;              ///< larger is surer
+    std::optional<CompressedRle> segmentation = {};
+    std::optional<Point3> position_m = {};  ///< in the camera frame
+    double depth_m = no_depth;              ///< along the optical axis, metres; NaN = not known
+    double scale = 1;                       ///< size relative to the reference size of its class
+};
+
+namespace detail {
+
+[[nodiscard]] inline Result result_from_json(const Json& record, const std::string& place) {
+    Result result{.image_id = integer_member(record, "image_id", place),
+                  .category_id = integer_member(record, "category_id", place),
+                  .box = {},
+                  .score = number_member(record, "score", place)};
+    if (const Json* segmentation = optional_member(record, "segmentation", place))
+        result.segmentation = rle_from_json(*segmentation, place);
+    if (const Json* box = optional_member(record, "bbox", place)) {
+        result.box = box_from_json(*box, place);
+    } else {
+        if (!result.segmentation)
+            refuse_json(place, "bbox", "a box, or a segmentation to take it from", "neither");
+        result.box = mask_box(decompress_mask(*result.segmentation));
+        if (!(result.box.area() > 0)) refuse_json(place, "segmentation", "at least one figure pixel", "none");
+    }
+    if (const Json* position = optional_member(record, "position_m", place)) {
+        if (!position->is_array() || position->size() != 3)
+            refuse_json(place, "position_m", "three numbers x, y, z", json_text(*position));
+        const auto coordinate = [&](std::size_t i) { return to_number((*position)[i], "position_m", place); };
+        result.position_m = Point3{coordinate(0), coordinate(1), coordinate(2)};
+    }
+    if (const Json* depth = optional_member(record, "depth_m", place)) {
+        result.depth_m = to_number(*depth, "depth_m", place);
+        if (!is_depth(result.depth_m)) refuse_json(place, "depth_m", "metres above 0", json_text(*depth));
+    }
+    if (const Json* scale = optional_member(record, "scale", place)) {
+        result.scale = to_number(*scale, "scale", place);
+        if (!(result.scale > 0)) refuse_json(place, "scale", "a number above 0", json_text(*scale));
+    }
+    return result;
+}
+
+[[nodiscard]] inline Json result_to_json(const Result& result) {
+    Json record = {{"image_id", result.image_id},
+                   {"category_id", result.category_id},
+                   {"bbox", box_to_json(result.box)},
+                   {"score", result.score},
+                   {"scale", result.scale}};
+    record["depth_m"] = std::isnan(result.depth_m) ? Json(nullptr) : Json(result.depth_m);
+    if (result.segmentation) record["segmentation"] = rle_to_json(*result.segmentation);
+    if (result.position_m)
+        record["position_m"] = {result.position_m->x, result.position_m->y, result.position_m->z};
+    return record;
+}
+
+}  // namespace detail
+
+/// @brief Writes results as COCO's array, one record a line: image_id, category_id, bbox, score, segmentation
+/// {size, counts}; beside these scale, depth_m (null = not known) and position_m [x, y, z].
+/// @throws FileError where the file cannot be written, or read_results() would refuse it; nothing is written
+/// then.
+inline void write_results(const std::filesystem::path& path, std::span<const Result> results) {
+    using detail::Json;
+    const std::string place = detail::file_text(path);
+    Json records = Json::array();
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        records.push_back(detail::result_to_json(results[i]));
+        static_cast<void>(detail::result_from_json(records.back(), join_text(place, ", result ", i)));
+    }
+    write_file(path, detail::json_lines(records, place) + "\n");
+}
+
+/// @brief Reads a COCO array of results, of this or of another program: what only we write (scale, depth_m,
+/// position_m) may be missing, and so may either bbox or segmentation.
+/// @throws FileError, naming the file and the result's place in it, where the file cannot be read, is no such
+/// array, or a value makes no sense.
+[[nodiscard]] inline std::vector<Result> read_results(const std::filesystem::path& path) {
+    const detail::Json root = detail::read_json(path);
+    const std::string file = detail::file_text(path);
+    if (!root.is_array())
+        throw FileError(file + ": expected an array of results, got " + detail::json_text(root));
+    std::vector<Result> results;
+    for (std::size_t i = 0; i < root.size(); ++i)
+        results.push_back(detail::result_from_json(root[i], join_text(file, ", result ", i)));
+    return results;
+}
+
+}  // namespace ism

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "ism/core/camera.hpp"
+#include "ism/core/frame.hpp"
+#include "ism/core/geometry.hpp"
+#include "ism/core/image.hpp"
+#include "ism/dataset/polygon.hpp"
+#include "ism/dataset/rle.hpp"
+#include "ism/io/images.hpp"
+#include "ism/train/training_image.hpp"
+
+namespace ism {
+
+/// @brief A mask as the data set keeps it; decoded only by read_mask().
+using MaskSource = std::variant<std::monostate, CompressedRle, std::vector<Polygon>>;
+
+/// @brief One labelled object of a data set.
+struct DatasetAnnotation {
+    std::int64_t id = 0;          ///< its own in the data set
+    std::size_t class_index = 0;  ///< into Dataset::class_names
+    Box box;                      ///< pixels; may reach outside the image
+    bool crowd = false;           ///< a group: neither to be learnt from nor to be missed
+    MaskSource segmentation = {};
+    [[nodiscard]] bool operator==(const DatasetAnnotation&) const = default;
+};
+
+/// @brief One image of a data set with its labels; its pixels are read only by read_frame().
+struct DatasetImage {
+    std::int64_t id = 0;                    ///< its own in the data set
+    std::filesystem::path file;             ///< colour or grey image
+    std::filesystem::path depth_file = {};  ///< 16-bit PNG; empty = none
+    int width = 0, height = 0;              ///< pixels
+    double depth_scale = 0;                 ///< metres per unit of the depth file
+    std::optional<Camera> camera = {};
+    std::vector<DatasetAnnotation> objects = {};  ///< without objects it is background
+    [[nodiscard]] bool operator==(const DatasetImage&) const = default;
+};
+
+/// @brief Labelled images.
+struct Dataset {
+    std::filesystem::path source = {};  ///< the file it was read from
+    std::vector<std::string> class_names = {};
+    std::vector<std::int64_t> category_ids = {};  ///< the file's number of each class, in the same order
+    std::vector<DatasetImage> images = {};
+};
+
+/// @brief The mask of an annotation, of the image's size; without pixels where there is none.
+/// @throws FileError, naming the image and the annotation, where the mask is of another size, damaged, or
+/// without a figure pixel.
+[[nodiscard]] inline Mask read_mask(const DatasetImage& image, const DatasetAnnotation& annotation) {
+    if (std::holds_alternative<std::monostate>(annotation.segmentation)) return {};
+    try {
+        Mask mask;
+        if (const auto* packed = std::get_if<CompressedRle>(&annotation.segmentation)) {
+            expect(packed->width == image.width && packed->height == image.height, "mask size",
+                   detail::sides_text(image), detail::sides_text(*packed));
+            mask = decompress_mask(*packed);
+        } else {
+            mask = fill_polygons(std::get<std::vector<Polygon>>(annotation.segmentation), image.width,
+                                 image.height);
+        }
+        expect(mask_area(mask) > 0, "mask", "at least one figure pixel", "none");
+        return mask;
+    } catch (const Error& error) {
+        throw FileError(
+            join_text(detail::file_text(image.file), ", annotation ", annotation.id, ": ", error.what()));
+    }
+}
+
+/// @brief Reads an image's brightness, its depth in metres where it has a depth file, and its camera.
+/// @throws FileError, naming the file, where one cannot be read, is of another size than the data set says,
+/// is smaller than 16×16, or has no depth reading at all.
+[[nodiscard]] inline Frame read_frame(const DatasetImage& image) {
+    const auto check_size = [&](const std::filesystem::path& file, const std::string& size) {
+        if (size != detail::sides_text(image))
+            throw FileError(join_text(detail::file_text(file), ": expected ", detail::sides_text(image),
+                                      " pixels as its data set says, got ", size));
+    };
+    Frame frame{.gray = read_gray(image.file)};
+    check_size(image.file, size_text(frame.gray));
+    if (!image.depth_file.empty()) {
+        const RawDepth raw = read_raw_depth(image.depth_file);
+        check_size(image.depth_file, size_text(raw));
+        frame.depth_m = to_metres(raw, image.depth_scale);
+    }
+    frame.camera = image.camera;
+    try {
+        check(frame);
+    } catch (const Error& error) {
+        throw FileError(detail::file_text(image.depth_file.empty() ? image.file : image.depth_file) + ": " +
+                        error.what());
+    }
+    return frame;
+}
+
+/// @brief Reads an image and decodes its objects' masks; crowds are left out.
+/// @throws FileError as read_frame() and read_mask() do.
+[[nodiscard]] inline TrainingImage read_training_image(const DatasetImage& image) {
+    TrainingImage training{.frame = read_frame(image), .name = image.file.string()};
+    for (const DatasetAnnotation& object : image.objects)
+        if (!object.crowd)
+            training.objects.push_back(
+                {.class_index = object.class_index, .box = object.box, .mask = read_mask(image, object)});
+    return training;
+}
+
+/// @brief The part of a data set with these classes alone, in the order of `names`; class indices follow it.
+/// An image stays where it shows one of them, or where it had no annotation at all (background); images with
+/// nothing but other classes are dropped.
+/// @throws Error where a name is not a class of the data set or comes twice, or there is none.
+[[nodiscard]] inline Dataset select_classes(const Dataset& dataset, std::span<const std::string> names) {
+    std::string known;
+    for (const std::string& name : dataset.class_names) known += (known.empty() ? "" : ", ") + name;
+    expect(!names.empty(), "classes to select", "at least one of: " + known, "none");
+    Dataset part{.source = dataset.source};
+    std::map<std::size_t, std::size_t> new_index;
+    for (const std::string& name : names) {
+        const auto found = std::find(dataset.class_names.begin(), dataset.class_names.end(), name);
+        expect(found != dataset.class_names.end(), "class to select", "one of: " + known, "'" + name + "'");
+        const auto index = std::size_t(found - dataset.class_names.begin());
+        expect(new_index.emplace(index, part.class_names.size()).second, "class to select", "each name once",
+               "'" + name + "' twice");
+        part.class_names.push_back(name);
+        part.category_ids.push_back(dataset.category_ids.at(index));
+    }
+    for (const DatasetImage& image : dataset.images) {
+        DatasetImage chosen = image;
+        chosen.objects.clear();
+        for (const DatasetAnnotation& object : image.objects)
+            if (const auto found = new_index.find(object.class_index); found != new_index.end()) {
+                chosen.objects.push_back(object);
+                chosen.objects.back().class_index = found->second;
+            }
+        if (!chosen.objects.empty() || image.objects.empty()) part.images.push_back(std::move(chosen));
+    }
+    return part;
+}
+
+}  // namespace ism

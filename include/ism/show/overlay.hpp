@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ism/core/number_text.hpp"
+#include "ism/show/overlay_close_up.hpp"
+#include "ism/show/overlay_panels.hpp"
+
+namespace ism {
+
+/// @brief How overlays look.
+struct OverlayOptions {
+    int side_px = 640;     ///< small pictures are magnified a whole number of times up to this longer side
+    bool close_up = true;  ///< rows show a detection and its surroundings instead of the whole picture
+    double circle_scales = 3;  ///< radius of a feature's circle in multiples of its scale
+};
+
+namespace detail {
+
+/// The panels side by side on white, each under its caption.
+[[nodiscard]] inline RgbImage captioned_row(std::span<const RgbImage> panels,
+                                            std::span<const std::string> captions) {
+    const int width = panels[0].width(), height = panels[0].height(), size = letter_size(width);
+    const int gap = 4 * size, head = (font_height + 5) * size;
+    RgbImage row(int(panels.size()) * (width + gap) - gap, head + height, white);
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        const int x0 = int(i) * (width + gap);
+        draw_text(row.view().region(x0, 0, width, head), 0, 2 * size, captions[i], {40, 40, 48}, size);
+        for (int y = 0; y < height; ++y)
+            std::copy_n(panels[i].row(y).begin(), width, row.row(head + y).begin() + x0);
+    }
+    return row;
+}
+
+/// The sizes of a segmentation's parts, which must be one.
+inline void check_segmentation(const Segmentation& part) {
+    for (const GrayImage* map : {&part.figure, &part.ground})
+        expect(map->width() == part.mask.width() && map->height() == part.mask.height(),
+               "probability map size", size_text(part.mask), size_text(*map));
+}
+
+/// The row of overlay_row() for the whole picture.
+[[nodiscard]] inline RgbImage four_panels(ImageView<const Rgb> picture, const Detections& detections,
+                                          const Detection& detection,
+                                          std::span<const std::string> class_names,
+                                          const OverlayOptions& options) {
+    const Segmentation& part = detection.segmentation;
+    detail::check_segmentation(part);
+    const int factor = detail::magnification(picture, options.side_px);
+    const int width = picture.width(), height = picture.height();
+    const Rgb color = class_color(detection.class_index);
+    const RgbImage large = magnified(picture, factor);
+    const Box box = detail::magnified(detection.box, factor);
+    const double pen = detail::letter_size(large.width());
+
+    RgbImage votes = large;
+    for (Rgb& pixel : votes.pixels()) pixel = mix(pixel, black, 0.4);
+    detail::draw_support(votes, detections, detection, color, options.circle_scales, factor);
+    draw_box(votes, box, {color, pen});
+    std::vector<Box> used;
+    detail::draw_label(votes, box, detail::label_text(detection, class_names), color, used);
+
+    float top = 0;
+    for (const GrayImage* map : {&part.figure, &part.ground})
+        for (const float value : map->pixels()) top = std::max(top, value);
+    RgbImage figure = detail::map_panel(part, part.figure, double(top), width, height, factor, heat_color);
+    RgbImage ground = detail::map_panel(part, part.ground, double(top), width, height, factor, heat_color);
+    draw_box(figure, box, {white, pen, 0.35});
+    draw_box(ground, box, {white, pen, 0.35});
+
+    RgbImage cut = large;
+    const Mask mask = detail::magnified(whole_mask(part, width, height), factor);
+    for (int y = 0; y < cut.height(); ++y)
+        for (int x = 0; x < cut.width(); ++x)
+            if (mask(x, y) == 0) cut(x, y) = mix(grey_color(brightness(cut(x, y))), black, 0.6);
+    draw_contour(cut, mask, color, int(pen));
+
+    const std::array panels{std::move(votes), std::move(figure), std::move(ground), std::move(cut)};
+    const std::string distance =
+        is_depth(detection.depth_m) ? ", " + fixed_text(detection.depth_m, 2) + " m away" : "";
+    const std::array<std::string, 4> captions{
+        join_text(detection.support.size(), detection.support.size() == 1 ? " vote" : " votes", distance),
+        "p(figure), brightest " + number_text(double(top), 2), "p(ground), same scale",
+        mask_area(part.mask) > 0 ? "segmentation" : "no segmentation"};
+    return detail::captioned_row(panels, captions);
+}
+
+}  // namespace detail
+
+/// @brief Four pictures of one detection side by side: the features that voted for it, with lines to its
+/// centre; the maps p(figure) and p(ground), both on one scale whose brightest value stands in the caption;
+/// the figure in its surroundings.
+/// @throws Error where there is no detection `which`, its class has no name, its votes point to features that
+/// are not there or its segmentation's parts differ in size.
+[[nodiscard]] inline RgbImage overlay_row(ImageView<const Rgb> picture, const Detections& detections,
+                                          std::size_t which, std::span<const std::string> class_names,
+                                          const OverlayOptions& options = {}) {
+    expect(which < detections.objects.size(), "index of a detection",
+           join_text("below ", detections.objects.size()), which);
+    const Detection& detection = detections.objects[which];
+    if (!options.close_up) return detail::four_panels(picture, detections, detection, class_names, options);
+    const Box part =
+        detail::surroundings(detections, detection, picture.width(), picture.height(), options.circle_scales);
+    const Detections there = detail::moved_to(detections, detection, int(part.x), int(part.y));
+    return detail::four_panels(picture.region(int(part.x), int(part.y), int(part.width), int(part.height)),
+                               there, there.objects.front(), class_names, options);
+}
+
+/// @brief All detections in one picture: tinted figures with contours, boxes, class names and scores, the
+/// strongest on top.
+/// @throws Error where the class of a detection has no name.
+[[nodiscard]] inline RgbImage overlay_all(ImageView<const Rgb> picture, const Detections& detections,
+                                          std::span<const std::string> class_names,
+                                          const OverlayOptions& options = {}) {
+    const int factor = detail::magnification(picture, options.side_px);
+    RgbImage result = magnified(picture, factor);
+    const int pen = detail::letter_size(result.width());
+    for (std::size_t i = detections.objects.size(); i-- > 0;) {
+        const Detection& detection = detections.objects[i];
+        const Mask mask =
+            detail::magnified(whole_mask(detection.segmentation, picture.width(), picture.height()), factor);
+        const Rgb color = class_color(detection.class_index);
+        blend_mask(result, mask, color, 0.35);
+        draw_contour(result, mask, color, pen);
+        draw_box(result, detail::magnified(detection.box, factor), {color, double(pen), 0.9});
+    }
+    std::vector<Box> used;
+    for (const Detection& detection : detections.objects)
+        detail::draw_label(result, detail::magnified(detection.box, factor),
+                           detail::label_text(detection, class_names), class_color(detection.class_index),
+                           used);
+    return result;
+}
+
+}  // namespace ism

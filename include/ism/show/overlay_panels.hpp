@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ism/core/number_text.hpp"
+#include "ism/detect/detection.hpp"
+#include "ism/show/draw.hpp"
+#include "ism/show/draw_mask.hpp"
+#include "ism/show/font.hpp"
+
+namespace ism::detail {
+
+// The parts of the pictures of io/overlay.hpp. Small pictures are magnified by a whole number first.
+
+/// By how much a picture is magnified so that its longer side comes near `side_px`.
+[[nodiscard]] inline int magnification(ImageView<const Rgb> picture, int side_px) {
+    expect(!picture.empty(), "picture size", "at least 1x1", size_text(picture));
+    return std::clamp(side_px / std::max(picture.width(), picture.height()), 1, 16);
+}
+
+/// How large letters are in a picture of this width.
+[[nodiscard]] inline int letter_size(int width_px) {
+    return width_px >= 320 ? 2 : 1;
+}
+
+/// Where a point and a box of the picture lie in the magnified one.
+[[nodiscard]] inline Point2 magnified(Point2 p, int factor) {
+    return {(p.x + 0.5) * factor - 0.5, (p.y + 0.5) * factor - 0.5};
+}
+[[nodiscard]] inline Box magnified(const Box& b, int factor) {
+    return {b.x * factor, b.y * factor, b.width * factor, b.height * factor};
+}
+[[nodiscard]] inline Mask magnified(const Mask& mask, int factor) {
+    Mask large(mask.width() * factor, mask.height() * factor);
+    for (int y = 0; y < large.height(); ++y)
+        for (int x = 0; x < large.width(); ++x) large(x, y) = mask(x / factor, y / factor);
+    return large;
+}
+
+/// "cup 0.83"
+[[nodiscard]] inline std::string label_text(const Detection& detection, std::span<const std::string> names) {
+    expect(detection.class_index < names.size(), "class of a detection", join_text("below ", names.size()),
+           detection.class_index);
+    return names[detection.class_index] + " " + number_text(detection.score, 3);
+}
+
+/// Writes a label at a box: above it, or where that place is outside the picture or `used` already, inside
+/// its upper edge or below it. Adds the place to `used`.
+inline void draw_label(ImageView<Rgb> picture, const Box& box, const std::string& text, Rgb color,
+                       std::vector<Box>& used) {
+    const int size = letter_size(picture.width());
+    const double width = text_width(text, size) + 4 * size, height = (font_height + 3) * size;
+    const Box page{0, 0, double(picture.width()), double(picture.height())};
+    const double x = std::clamp(box.x, 0.0, std::max(0.0, page.width - width));
+    Box place{x, std::clamp(box.y, 0.0, std::max(0.0, page.height - height)), width, height};
+    for (const double y : {box.y - height, box.y, box.y + box.height - height, box.y + box.height}) {
+        const Box wish{x, y, width, height};
+        const bool free = std::none_of(used.begin(), used.end(),
+                                       [&](const Box& b) { return intersection(b, wish).area() > 0; });
+        if (!free || intersection(wish, page).area() < wish.area()) continue;
+        place = wish;
+        break;
+    }
+    place.x = std::round(place.x), place.y = std::round(place.y);
+    used.push_back(place);
+    fill_box(picture, place, color);
+    draw_text(picture, int(place.x) + 2 * size, int(place.y) + 3 * size / 2, text, ink_on(color), size);
+}
+
+/// What a feature adds to a detection, all its votes together.
+struct FeatureWeight {
+    std::uint32_t feature = 0;
+    double weight = 0;
+};
+
+/// The features that support a detection, strongest last, so that they are drawn on top.
+[[nodiscard]] inline std::vector<FeatureWeight> feature_weights(const Detections& detections,
+                                                                const Detection& detection) {
+    std::vector<FeatureWeight> weights(detections.features.size());
+    for (const Support& s : detection.support) {
+        expect(s.feature < weights.size(), "feature of a vote", join_text("below ", weights.size()),
+               s.feature);
+        weights[s.feature] = {s.feature, weights[s.feature].weight + double(s.weight)};
+    }
+    weights.erase(std::remove_if(weights.begin(), weights.end(),
+                                 [](const FeatureWeight& f) { return !(f.weight > 0); }),
+                  weights.end());
+    std::stable_sort(weights.begin(), weights.end(),
+                     [](const FeatureWeight& a, const FeatureWeight& b) { return a.weight < b.weight; });
+    return weights;
+}
+
+/// The features that vote for a detection as circles (radius: `circle_scales` times their scale), each with a
+/// line to the centre; the stronger the vote, the clearer the line.
+inline void draw_support(ImageView<Rgb> picture, const Detections& detections, const Detection& detection,
+                         Rgb color, double circle_scales, int factor) {
+    const double pen = letter_size(picture.width());
+    const std::vector<FeatureWeight> weights = feature_weights(detections, detection);
+    const double strongest = weights.empty() ? 1 : weights.back().weight;
+    const Point2 centre = magnified(detection.centre, factor);
+    for (const bool circles : {false, true})
+        for (const FeatureWeight& f : weights) {
+            const Feature& feature = detections.features[f.feature];
+            const Point2 at = magnified(Point2{feature.x, feature.y}, factor);
+            const double opacity = 0.25 + 0.75 * f.weight / strongest;
+            if (!circles) {
+                draw_line(picture, at, centre, {color, 0.6 * pen, opacity});
+            } else {
+                const double radius = std::max(2.0, circle_scales * double(feature.scale) * factor);
+                draw_circle(picture, at, radius, {mix(color, white, 0.6), 0.6 * pen, opacity});
+                fill_disc(picture, at, 0.9 * pen, white, opacity);
+            }
+        }
+    fill_disc(picture, centre, 3.5 * pen, black);
+    fill_disc(picture, centre, 2.5 * pen, mix(color, white, 0.3));
+}
+
+/// A map of a segmentation as colours over the whole picture; `top` is the brightest value.
+template <std::invocable<double> Colors>
+[[nodiscard]] RgbImage map_panel(const Segmentation& part, const GrayImage& map, double top, int width,
+                                 int height, int factor, const Colors& color_of) {
+    RgbImage panel(width * factor, height * factor, color_of(0.0));
+    for (int y = 0; y < panel.height(); ++y)
+        for (int x = 0; x < panel.width(); ++x) {
+            const double u = (x + 0.5) / factor - 0.5 - part.x, v = (y + 0.5) / factor - 0.5 - part.y;
+            if (top > 0 && u > -0.5 && v > -0.5 && u < map.width() - 0.5 && v < map.height() - 0.5)
+                panel(x, y) = color_of(double(sample_bilinear(map, float(u), float(v))) / top);
+        }
+    return panel;
+}
+
+}  // namespace ism::detail

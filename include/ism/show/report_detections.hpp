@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ism/io/png.hpp"
+#include "ism/show/overlay.hpp"
+#include "ism/show/report.hpp"
+
+namespace ism {
+
+/// @brief How much a report says about one picture.
+struct DetectionReportOptions {
+    std::size_t rows = 5;     ///< detections with four pictures and reasons, the strongest first
+    std::size_t reasons = 6;  ///< words and features named for each
+    OverlayOptions overlay = {.side_px = 360};
+};
+
+/// @brief What is known of a detection: votes, position, depth, scale, box.
+[[nodiscard]] inline ReportTable fact_table(const Detection& detection) {
+    ReportTable table;
+    const auto add = [&](std::string what, std::string value) {
+        table.rows.push_back({std::move(what), std::move(value)});
+    };
+    std::vector<std::uint32_t> features, words;
+    for (const Support& s : detection.support) features.push_back(s.feature), words.push_back(s.word);
+    for (auto* list : {&features, &words}) {
+        std::sort(list->begin(), list->end());
+        list->erase(std::unique(list->begin(), list->end()), list->end());
+    }
+    add("score", number_text(detection.score));
+    add("votes", join_text(detection.support.size(), " by ", features.size(), " features through ",
+                           words.size(), " words"));
+    if (const auto& p = detection.position_m)
+        add("position x, y, z",
+            number_text(p->x, 3) + ", " + number_text(p->y, 3) + ", " + number_text(p->z, 3) + " m");
+    if (is_depth(detection.depth_m)) add("depth", number_text(detection.depth_m, 3) + " m");
+    add("scale", number_text(detection.scale, 3));
+    add("centre", number_text(detection.centre.x) + ", " + number_text(detection.centre.y) + " px");
+    add("figure", join_text(mask_area(detection.segmentation.mask), " px"));
+    return table;
+}
+
+/// @brief The words that speak most for a detection: votes and weight of each, and its share of all weight.
+[[nodiscard]] inline ReportTable word_table(const Detection& detection, std::size_t count) {
+    struct Sum {
+        std::uint32_t word = 0;
+        std::size_t votes = 0;
+        double weight = 0;
+    };
+    std::map<std::uint32_t, Sum> by_word;
+    double all = 0;
+    for (const Support& s : detection.support) {
+        Sum& sum = by_word[s.word];
+        sum.word = s.word, ++sum.votes, sum.weight += double(s.weight), all += double(s.weight);
+    }
+    std::vector<Sum> sums;
+    for (const auto& [word, sum] : by_word) sums.push_back(sum);
+    std::stable_sort(sums.begin(), sums.end(),
+                     [](const Sum& a, const Sum& b) { return a.weight > b.weight; });
+    ReportTable table{.caption = "strongest words", .header = {"word", "votes", "weight", "share"}};
+    for (const Sum& sum : std::span(sums).first(std::min(count, sums.size())))
+        table.rows.push_back({std::to_string(sum.word), std::to_string(sum.votes), number_text(sum.weight, 3),
+                              all > 0 ? number_text(100 * sum.weight / all, 3) + " %" : number_text(NAN)});
+    return table;
+}
+
+/// @brief The image features that speak most for a detection: place, scale, depth and weight of each.
+/// @throws Error where a vote points to a feature that is not there.
+[[nodiscard]] inline ReportTable feature_table(const Detections& detections, const Detection& detection,
+                                               std::size_t count) {
+    std::vector<detail::FeatureWeight> weights = detail::feature_weights(detections, detection);
+    std::reverse(weights.begin(), weights.end());
+    ReportTable table{.caption = "strongest features",
+                      .header = {"at x, y (px)", "scale (px)", "depth (m)", "weight"}};
+    for (const detail::FeatureWeight& w : std::span(weights).first(std::min(count, weights.size()))) {
+        const Feature& f = detections.features[w.feature];
+        table.rows.push_back(
+            {number_text(double(f.x)) + ", " + number_text(double(f.y)), number_text(double(f.scale), 3),
+             is_depth(double(f.depth_m)) ? number_text(double(f.depth_m), 3) : number_text(NAN),
+             number_text(w.weight, 3)});
+    }
+    return table;
+}
+
+/// @brief A section on one picture: all detections in it, then for the strongest ones the four pictures of
+/// overlay_row() and why they were found.
+/// @throws Error as overlay_all() and overlay_row() do.
+[[nodiscard]] inline ReportSection detection_section(std::string title, ImageView<const Rgb> picture,
+                                                     const Detections& detections,
+                                                     std::span<const std::string> class_names,
+                                                     const DetectionReportOptions& options = {}) {
+    ReportSection section{.title = std::move(title)};
+    const std::size_t count = detections.objects.size(), shown = std::min(count, options.rows);
+    const std::string caption = count == 0   ? "nothing found"
+                                : count == 1 ? "1 detection"
+                                             : join_text(count, " detections");
+    section.parts.push_back(
+        ReportPicture{caption, encode_png(overlay_all(picture, detections, class_names, options.overlay))});
+    for (std::size_t i = 0; i < shown; ++i) {
+        const Detection& detection = detections.objects[i];
+        ReportSection why{.title = detail::label_text(detection, class_names), .folded = i > 0};
+        why.parts.push_back(
+            ReportPicture{"", encode_png(overlay_row(picture, detections, i, class_names, options.overlay))});
+        why.parts.push_back(fact_table(detection));
+        why.parts.push_back(word_table(detection, options.reasons));
+        why.parts.push_back(feature_table(detections, detection, options.reasons));
+        section.sections.push_back(std::move(why));
+    }
+    if (shown < count)
+        section.parts.push_back(
+            ReportText{join_text("Shown below: the strongest ", shown, " of ", count, ".")});
+    return section;
+}
+
+}  // namespace ism
