@@ -14,7 +14,7 @@
 #include "support/rows.hpp"
 #include <CLI/CLI.hpp>
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/detect/detect.hpp"
 #include "ism/evaluate/evaluate.hpp"

@@ -57,7 +57,7 @@ using ByteImage = ism::Image<std::uint8_t>;
         for (const std::filesystem::path& one : all) images.push_back(read_bytes(one));
     }
     ism::expect(files.empty() || !images.empty(), "photographs", "image files",
-                "none in " + (files.empty() ? std::string() : files.front()));
+                ism::lazy_text("none in ", (files.empty() ? std::string() : files.front())));
     if (!images.empty()) return images;
     for (const char* sequence : {"bikes", "boat", "graf", "leuven", "ubc"})
         for (const char* name : {"img1.png", "img4.png"})

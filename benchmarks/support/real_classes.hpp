@@ -11,7 +11,7 @@
 
 #include "support/many_classes.hpp"
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/feature/extract.hpp"
 

@@ -50,7 +50,7 @@ using FiveAxesAndClass = ism::VoteSpace<ism::X, ism::Y, ism::Scale, ism::Depth, 
                                                       std::size_t count) {
     std::vector<ism::Vote<5>> all;
     for (const auto& image : images) all.insert(all.end(), image.begin(), image.end());
-    ism::expect(all.size() >= count, "votes of all images", ism::join_text("at least ", count), all.size());
+    ism::expect(all.size() >= count, "votes of all images", ism::lazy_text("at least ", count), all.size());
     ism::Random random(1);
     for (std::size_t i = 0; i < count; ++i) std::swap(all[i], all[i + random.index(all.size() - i)]);
     all.resize(count);

@@ -10,7 +10,7 @@
 #include "support/many_classes.hpp"
 #include "toy_lessons.hpp"
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 
 namespace bench {
 

@@ -12,7 +12,7 @@
 #include "progress.hpp"
 #include "toy/toy_set.hpp"
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"
@@ -46,7 +46,8 @@ struct SceneOutcome {
 void prepare(const fs::path& folder) {
     make_folder(folder);
     const bool used = fs::directory_iterator(folder) != fs::directory_iterator();
-    ism::expect<ism::FileError>(!used || fs::exists(folder / marker), "folder '" + folder.string() + "'",
+    ism::expect<ism::FileError>(!used || fs::exists(folder / marker),
+                                ism::lazy_text("folder '", folder.string(), "'"),
                                 "an empty one or one of an earlier demo", "other files in it");
     ism::write_file(folder / marker, std::string_view());
     make_folder(folder / "overlays");
@@ -171,10 +172,10 @@ void run_demo(const DemoCommand& command) {
     const OverlayFiles overlays(folder / "overlays", set.test);
     std::vector<SceneOutcome> scenes(count);
     std::vector<ism::ReportSection> sections(std::min(count, report_scenes));
-    ism::Team team(command.threads);
+    ism::ThreadPool pool(command.threads);
     std::vector<PictureMatcher> matchers;
-    for (unsigned worker = 0; worker < team.size(); ++worker) matchers.push_back(make_any_matcher(model, 1));
-    team.each(count, [&](std::size_t i, unsigned worker) {
+    for (unsigned worker = 0; worker < pool.size(); ++worker) matchers.push_back(make_any_matcher(model, 1));
+    pool.for_each(count, [&](std::size_t i, unsigned worker) {
         const ism::DatasetImage& image = set.test.images[i];
         const ism::Frame frame = ism::read_frame(image);
         const Stopwatch look_watch;

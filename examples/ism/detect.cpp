@@ -9,7 +9,7 @@
 #include "output.hpp"
 #include "progress.hpp"
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/show/report_detections.hpp"
 
@@ -56,7 +56,7 @@ void check_depth(const DetectCommand& command, const ism::Dataset& dataset) {
     if (!needs_depth(command.search.space)) return;
     const bool any = std::any_of(dataset.images.begin(), dataset.images.end(),
                                  [](const ism::DatasetImage& image) { return !image.depth_file.empty(); });
-    ism::expect(any, "vote space " + command.search.space,
+    ism::expect(any, ism::lazy_text("vote space ", command.search.space),
                 command.image.empty() ? "depth_file_name in '" + command.data.string() + "'" : "--depth",
                 "no depth");
 }
@@ -97,11 +97,11 @@ void run_detect(const DetectCommand& command) {
         ProgressLine progress;
         // Several images are shared out among the threads; on a single one all threads work together.
         const unsigned inner = count > 1 ? 1 : command.threads;
-        ism::Team team(count > 1 ? command.threads : 1);
+        ism::ThreadPool pool(count > 1 ? command.threads : 1);
         std::vector<PictureMatcher> matchers;
-        for (unsigned worker = 0; worker < team.size(); ++worker)
+        for (unsigned worker = 0; worker < pool.size(); ++worker)
             matchers.push_back(make_any_matcher(model, inner));
-        team.each(count, [&](std::size_t i, unsigned worker) {
+        pool.for_each(count, [&](std::size_t i, unsigned worker) {
             const ism::DatasetImage& image = dataset.images[i];
             const ism::Frame frame = ism::read_frame(image);
             const ism::Detections found =

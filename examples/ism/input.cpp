@@ -10,7 +10,8 @@
 
 #include "progress.hpp"
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/number_text.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco_write.hpp"
 #include "ism/io/write_file.hpp"
 
@@ -53,7 +54,7 @@ std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
         throw ism::Error(
             ism::join_text(bad, " of ", count,
                            " images cannot be used; nothing was written (--skip-bad goes on without them)"));
-    ism::expect(!good.empty(), "images that can be used", "1 or more", ism::join_text("none of ", count));
+    ism::expect(!good.empty(), "images that can be used", "1 or more", ism::lazy_text("none of ", count));
     dataset.images = std::move(good);
     return bad;
 }
@@ -73,7 +74,8 @@ void check_output(const fs::path& file, std::span<const fs::path> inputs) {
         throw ism::FileError(text + ": expected an existing folder to write to, got none");
     // Writing at one stroke makes a file beside it: whether that works is known only by doing it.
     std::random_device device;
-    const fs::path probe = folder / ism::join_text(".ism-", std::hex, device(), device());
+    const fs::path probe =
+        folder / ism::join_text(".ism-", ism::hex_text(device(), 8), ism::hex_text(device(), 8));
     try {
         ism::write_file(probe, std::string_view());
     } catch (const ism::FileError&) {

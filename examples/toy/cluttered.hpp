@@ -35,16 +35,16 @@ struct ClutterOptions {
     using namespace detail;
     ism::expect(clutter.least_toys >= 0 && clutter.least_toys <= clutter.most_toys, "number of toys",
                 "least 0 or more, most not below",
-                ism::join_text(clutter.least_toys, " to ", clutter.most_toys));
+                ism::lazy_text(clutter.least_toys, " to ", clutter.most_toys));
     ism::expect(clutter.least_things >= 0 && clutter.least_things <= clutter.most_things,
                 "number of other things", "least 0 or more, most not below",
-                ism::join_text(clutter.least_things, " to ", clutter.most_things));
+                ism::lazy_text(clutter.least_things, " to ", clutter.most_things));
     ism::expect(clutter.instances > 0 && clutter.first_instance >= 0, "toy instances",
                 "at least one, from 0 on",
-                ism::join_text(clutter.instances, " from ", clutter.first_instance));
+                ism::lazy_text(clutter.instances, " from ", clutter.first_instance));
     ism::expect(clutter.near_m >= 0.5 && clutter.near_m <= clutter.far_m && clutter.far_m <= 1.8,
                 "toy distances", "0.5 to 1.8 m, near first",
-                ism::join_text(clutter.near_m, " to ", clutter.far_m));
+                ism::lazy_text(clutter.near_m, " to ", clutter.far_m));
     const ism::Camera camera = toy_camera(options);
     ism::Random random(derived_seed(scene_seed, 202));
     const auto vary = [&](double low, double high) { return float(random.uniform(low, high)); };

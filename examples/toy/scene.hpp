@@ -46,7 +46,7 @@ struct ToyScene {
 /// @throws ism::Error where the picture is smaller than 64 × 64 or the focal length not positive.
 [[nodiscard]] inline ism::Camera toy_camera(const ToyOptions& options) {
     ism::expect(options.width >= 64 && options.height >= 64, "toy picture size", "at least 64x64",
-                ism::join_text(options.width, "x", options.height));
+                ism::lazy_text(options.width, "x", options.height));
     const ism::Camera camera{options.focal_px, options.focal_px, (options.width - 1) / 2.0,
                              (options.height - 1) / 2.0};
     ism::check(camera);

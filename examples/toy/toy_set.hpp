@@ -12,7 +12,7 @@
 #include "toy/isolated.hpp"
 #include <nlohmann/json.hpp>
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/coco_write.hpp"
 #include "ism/io/png.hpp"
@@ -107,9 +107,9 @@ inline ism::Dataset write_truth(const std::filesystem::path& file, std::vector<i
 inline ToySet write_toy_set(const std::filesystem::path& folder, const ToySetOptions& options = {}) {
     ism::expect(options.train_cars > 0 && options.train_others > 0 && options.views_per_toy > 0,
                 "toy set training toys and views", "at least one of each",
-                ism::join_text(options.train_cars, ", ", options.train_others, ", ", options.views_per_toy));
+                ism::lazy_text(options.train_cars, ", ", options.train_others, ", ", options.views_per_toy));
     ism::expect(options.test_scenes >= 0 && options.backgrounds >= 0, "toy set scenes", "0 or more",
-                ism::join_text(options.test_scenes, ", ", options.backgrounds));
+                ism::lazy_text(options.test_scenes, ", ", options.backgrounds));
     struct Lesson {
         std::size_t class_index;
         int instance, view;
@@ -121,8 +121,8 @@ inline ToySet write_toy_set(const std::filesystem::path& folder, const ToySetOpt
     for (const char* part : {"train", "test"}) {
         std::error_code failure;
         std::filesystem::create_directories(folder / part, failure);
-        ism::expect<ism::FileError>(!failure, "folder '" + (folder / part).string() + "'", "to be made",
-                                    failure.message());
+        ism::expect<ism::FileError>(!failure, ism::lazy_text("folder '", (folder / part).string(), "'"),
+                                    "to be made", failure.message());
     }
     ToyOptions picture = options.picture, lesson_picture = options.picture;
     picture.seed = lesson_picture.seed = options.seed;

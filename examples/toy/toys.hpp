@@ -30,7 +30,7 @@ namespace toy {
 /// @throws ism::Error where there is no such class or the instance is negative.
 [[nodiscard]] inline Model make_toy(std::size_t class_index, int instance, std::uint64_t seed) {
     ism::expect(class_index < class_names().size(), "toy class index",
-                ism::join_text("below ", class_names().size()), class_index);
+                ism::lazy_text("below ", class_names().size()), class_index);
     ism::expect(instance >= 0, "toy instance", "0 or more", instance);
     const std::uint64_t own = derived_seed(derived_seed(seed, 17 + class_index), std::uint64_t(instance));
     switch (class_index) {

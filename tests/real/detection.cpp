@@ -9,7 +9,7 @@
 #include "support/catch.hpp"
 #include "support/data.hpp"
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/detect/detect.hpp"
 #include "ism/evaluate/evaluate.hpp"

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "ism/core/error.hpp"
+#include "ism/core/number_text.hpp"
 
 namespace ism::test {
 
@@ -17,7 +18,8 @@ class TemporaryFolder {
 public:
     TemporaryFolder() {
         std::random_device device;
-        path_ = std::filesystem::temp_directory_path() / join_text("ism-test-", std::hex, device(), device());
+        path_ = std::filesystem::temp_directory_path() /
+                join_text("ism-test-", hex_text(device(), 8), hex_text(device(), 8));
         std::filesystem::create_directories(path_);
     }
     ~TemporaryFolder() {

@@ -280,12 +280,12 @@ TEST_CASE("a search finds the nearest of all pairs that it is asked for") {
          {std::pair{6500u, 6500u}, {1000u, 5u}, {500u, 300u}, {17u, 17u}, {2u, 1u}}) {
         const Points points = random_points(count, 6, 40, random);
         for (const unsigned threads : {1u, 3u}) {
-            ism::Team team(threads);
-            const LiveClusters live(points.moments(), team);
+            ism::ThreadPool pool(threads);
+            const LiveClusters live(points.moments(), pool);
             NearLists lists(count, 0.5f);
             std::vector<std::uint32_t> all = live.spatial_order();
             const std::span<const std::uint32_t> asking = std::span(all).first(asked);
-            NearSearch(live, lists, asking, std::span(all).subspan(asked)).run(team);
+            NearSearch(live, lists, asking, std::span(all).subspan(asked)).run(pool);
             std::size_t wrong = 0;
             for (const std::uint32_t i : asking.first(std::min(asked, 500u))) {
                 std::vector<float> distances;

@@ -152,7 +152,7 @@ TEST_CASE("JPEG, BMP and PNM files are read, and refused when cut at any length"
     for (const Bytes& file : {jpeg, bmp, pnm}) {
         REQUIRE(read_error(folder, file) == "nothing thrown");
         const RgbImage read = ism::read_rgb(folder / "image");
-        REQUIRE(ism::size_text(read) == "19x12");
+        REQUIRE(ism::join_text(ism::size_text(read)) == "19x12");
         for (int y = 0; y < 12; ++y)
             for (int x = 0; x < 19; ++x) {
                 CHECK(std::abs(read(x, y).r - image(x, y).r) <= 12);

@@ -34,7 +34,7 @@ struct AverageLinkOptions {
     expect(options.max_sq_distance >= 0, "clustering: largest squared distance", "0 or more",
            options.max_sq_distance);
     expect(options.settled <= start.size(), "clustering: number of settled clusters",
-           join_text("at most ", start.size()), options.settled);
+           lazy_text("at most ", start.size()), options.settled);
     return detail::ReciprocalMerging(start, options.max_sq_distance, options.settled, options.threads).run();
 }
 

@@ -29,10 +29,10 @@ struct ClusterMoments {
 inline void check_moments(const ClusterMoments& clusters) {
     constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
     expect(clusters.dimension > 0 && clusters.means.size() % clusters.dimension == 0,
-           "clustering: number of values", join_text("a multiple of the dimension ", clusters.dimension),
+           "clustering: number of values", lazy_text("a multiple of the dimension ", clusters.dimension),
            clusters.means.size());
     const std::size_t count = clusters.size();
-    expect(count < most / 2, "clustering: number of points", join_text("below ", most / 2), count);
+    expect(count < most / 2, "clustering: number of points", lazy_text("below ", most / 2), count);
     const bool single = clusters.sizes.empty(), spreadless = clusters.mean_sq_lengths.empty();
     expect(single || clusters.sizes.size() == count, "clustering: number of sizes", count,
            clusters.sizes.size());
@@ -53,10 +53,10 @@ inline void check_moments(const ClusterMoments& clusters) {
             const float mean_square = clusters.mean_sq_lengths[i];
             expect(mean_square < 1e36f && double(mean_square) >= square * (1 - 1e-5),
                    "clustering: mean squared length of a cluster",
-                   join_text("at least that of its mean, ", square, ", and below 1e36"), mean_square);
+                   lazy_text("at least that of its mean, ", square, ", and below 1e36"), mean_square);
         }
     }
-    expect(total <= most, "clustering: points of all clusters", join_text("at most ", most), total);
+    expect(total <= most, "clustering: points of all clusters", lazy_text("at most ", most), total);
 }
 
 }  // namespace ism

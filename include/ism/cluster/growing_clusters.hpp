@@ -37,7 +37,7 @@ struct Clusters {
     Clusters joined{.dimension = dimension, .sizes = std::vector<std::uint32_t>(count, 0)};
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::size_t label = clustering.label[i];
-        expect(label < count, "join clusters: label", join_text("below ", count), label);
+        expect(label < count, "join clusters: label", lazy_text("below ", count), label);
         const std::uint32_t size = parts.sizes.empty() ? 1 : parts.sizes[i];
         double square = 0;
         for (std::size_t k = 0; k < dimension; ++k) {
@@ -74,7 +74,7 @@ struct GrownClusters {
 [[nodiscard]] inline GrownClusters add_points(const Clusters& present, std::span<const float> values,
                                               double max_sq_distance, unsigned threads = 0) {
     expect(present.dimension > 0 && values.size() % present.dimension == 0, "clustering: number of values",
-           join_text("a multiple of the dimension ", present.dimension), values.size());
+           lazy_text("a multiple of the dimension ", present.dimension), values.size());
     Clusters all = present;
     const std::size_t points = values.size() / present.dimension;
     all.means.insert(all.means.end(), values.begin(), values.end());

@@ -12,7 +12,7 @@
 #include "ism/cluster/sieve.hpp"
 #include "ism/cluster/sieve_heads.hpp"
 #include "ism/core/aligned.hpp"
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 
 namespace ism::detail {
 
@@ -22,12 +22,12 @@ namespace ism::detail {
 /// place of one of the two.
 class LiveClusters {
 public:
-    LiveClusters(const ClusterMoments& start, Team& team)
+    LiveClusters(const ClusterMoments& start, ThreadPool& pool)
         : stride_((start.dimension + 7) / 8 * 8),
           means_(start.size() * stride_, 0.0f),
           spread_(start.size(), 0.0),
           size_(start.size(), 1),
-          heads_(start, team) {
+          heads_(start, pool) {
         if (!start.sizes.empty()) size_.assign(start.sizes.begin(), start.sizes.end());
         for (std::size_t i = 0; i < start.size(); ++i) {
             const auto from = start.means.subspan(i * start.dimension, start.dimension);

@@ -41,7 +41,7 @@ struct MergeTrace {
 /// @throws Error for a threshold that is negative, NaN or beyond what the trace knows.
 [[nodiscard]] inline Clustering cut(const MergeTrace& trace, double max_sq_distance) {
     expect(max_sq_distance >= 0 && max_sq_distance <= trace.max_sq_distance, "cut: largest squared distance",
-           join_text("0 to ", trace.max_sq_distance), max_sq_distance);
+           lazy_text("0 to ", trace.max_sq_distance), max_sq_distance);
     constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     const std::size_t points = trace.points;
     std::vector<std::uint32_t> parent(points + trace.merges.size(), none);

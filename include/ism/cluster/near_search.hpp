@@ -15,7 +15,7 @@
 #include "ism/cluster/near_lists.hpp"
 #include "ism/cluster/sieve.hpp"
 #include "ism/core/aligned.hpp"
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 
 namespace ism::detail {
 
@@ -40,22 +40,22 @@ public:
         panels_.resize(slot_.size() * sieve_depth);
     }
 
-    void run(Team& team) {
-        team.each(slot_.size() / sieve_columns,
-                  [&](std::size_t panel, unsigned /*worker*/) { pack(panel * sieve_columns); });
+    void run(ThreadPool& pool) {
+        pool.for_each(slot_.size() / sieve_columns,
+                      [&](std::size_t panel, unsigned /*worker*/) { pack(panel * sieve_columns); });
         // Those that ask are split into squads, which meet as in a league: each day all squads play, two and
         // two, so that no two games of a day have a squad in common and all may go on at the same time.
-        const std::size_t most = std::max<std::size_t>(64, 4 * std::size_t(team.size()));
+        const std::size_t most = std::max<std::size_t>(64, 4 * std::size_t(pool.size()));
         const std::size_t squad = std::max<std::size_t>(1, (blocks_ + most - 1) / most);
         const std::size_t squads = (blocks_ + squad - 1) / squad, days = (squads + 1) / 2 * 2 - 1;
-        team.each(squads, [&](std::size_t a, unsigned /*worker*/) { play(a, a, squad); });
+        pool.for_each(squads, [&](std::size_t a, unsigned /*worker*/) { play(a, a, squad); });
         for (std::size_t day = 0; squads > 1 && day < days; ++day)
-            team.each((days + 1) / 2, [&](std::size_t game, unsigned /*worker*/) {
+            pool.for_each((days + 1) / 2, [&](std::size_t game, unsigned /*worker*/) {
                 const std::size_t a = game == 0 ? days : (day + game) % days;
                 const std::size_t b = (day + days - game) % days;
                 if (std::max(a, b) < squads) play(a, b, squad);
             });
-        team.each(asking_ / sieve_rows, [&](std::size_t strip, unsigned /*worker*/) {
+        pool.for_each(asking_ / sieve_rows, [&](std::size_t strip, unsigned /*worker*/) {
             meet(strip * sieve_rows, asking_, slot_.size());
         });
     }

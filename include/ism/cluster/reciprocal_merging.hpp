@@ -15,7 +15,7 @@
 #include "ism/cluster/merge_trace.hpp"
 #include "ism/cluster/near_lists.hpp"
 #include "ism/cluster/near_search.hpp"
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 
 namespace ism::detail {
 
@@ -29,9 +29,9 @@ public:
     /// The first `settled` clusters are known to lie further apart than `max_sq_distance`.
     ReciprocalMerging(const ClusterMoments& start, double max_sq_distance, std::size_t settled,
                       unsigned threads)
-        : team_(threads),
+        : pool_(threads),
           settled_(settled),
-          live_(start, team_),
+          live_(start, pool_),
           lists_(start.size(), NearLists::limit_of(max_sq_distance)),
           merged_(start.size()),
           alive_(live_.spatial_order()),
@@ -44,7 +44,7 @@ public:
         merge_equal();
         const auto last = std::stable_partition(alive_.begin(), alive_.end(),
                                                 [&](std::uint32_t i) { return i >= settled_; });
-        NearSearch(live_, lists_, alive_, {}, std::size_t(alive_.end() - last)).run(team_);
+        NearSearch(live_, lists_, alive_, {}, std::size_t(alive_.end() - last)).run(pool_);
         while (keep_those_with_neighbours()) {
             merge_reciprocal();
             follow_merges();
@@ -97,7 +97,7 @@ private:
         }
         const std::size_t made = trace_.merges.size();
         trace_.merges.resize(made + pairs_.size());
-        team_.each(pairs_.size(), [&](std::size_t p, unsigned /*worker*/) {
+        pool_.for_each(pairs_.size(), [&](std::size_t p, unsigned /*worker*/) {
             const auto [kept, gone] = pairs_[p];
             merge(made + p, kept, gone);
             merged_.partner[kept] = gone;
@@ -120,7 +120,7 @@ private:
     /// Brings all lists up to date with the merges of the round.
     void follow_merges() {
         constexpr std::size_t part = 64;
-        team_.each((alive_.size() + part - 1) / part, [&](std::size_t p, unsigned /*worker*/) {
+        pool_.for_each((alive_.size() + part - 1) / part, [&](std::size_t p, unsigned /*worker*/) {
             for (std::size_t a = p * part; a < std::min(alive_.size(), (p + 1) * part); ++a)
                 follow(alive_[a], merged_, live_, lists_);
         });
@@ -131,10 +131,10 @@ private:
         std::vector<std::uint32_t> asking, others;
         for (const std::uint32_t i : alive_) (lists_.sure(i) ? others : asking).push_back(i);
         for (const std::uint32_t i : asking) lists_.clear(i, std::numeric_limits<float>::max());
-        if (!asking.empty()) NearSearch(live_, lists_, asking, others).run(team_);
+        if (!asking.empty()) NearSearch(live_, lists_, asking, others).run(pool_);
     }
 
-    Team team_;
+    ThreadPool pool_;
     std::size_t settled_;
     LiveClusters live_;
     NearLists lists_;

@@ -17,7 +17,7 @@
 #include "ism/cluster/sieve.hpp"
 #include "ism/cluster/spatial_order.hpp"
 #include "ism/core/aligned.hpp"
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 
 namespace ism::detail {
 
@@ -27,7 +27,7 @@ namespace ism::detail {
 /// half_square + half_square − dot of the heads. Where the points have few numbers these are the head.
 class SieveHeads {
 public:
-    SieveHeads(const ClusterMoments& start, Team& team)
+    SieveHeads(const ClusterMoments& start, ThreadPool& pool)
         : numbers_(start.size() * sieve_depth, 0.0f),
           sq_length_(start.size()),
           whole_(start.dimension <= sieve_depth) {
@@ -49,7 +49,7 @@ public:
             whole_ ? Eigen::MatrixXf() : principal_directions(points, Index(sieve_depth) - 1);
 
         constexpr std::size_t block = 256;
-        team.each((count + block - 1) / block, [&](std::size_t part, unsigned /*worker*/) {
+        pool.for_each((count + block - 1) / block, [&](std::size_t part, unsigned /*worker*/) {
             const std::size_t first = part * block, width = std::min(block, count - first);
             const Eigen::MatrixXf centred = Eigen::Map<const Eigen::MatrixXf>(&start.means[first * dimension],
                                                                               Index(dimension), Index(width))

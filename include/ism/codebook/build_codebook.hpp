@@ -44,8 +44,8 @@ template <std::size_t Dimension>
         if (clusters.sizes[c] >= min_cluster_size) detail::add_word(codebook, clusters, c, group);
     }
     expect(codebook.size() > 0, "codebook",
-           join_text("a cluster of at least ", min_cluster_size, " features"),
-           join_text("at most ", largest, " together among ", descriptors.size(), " features"));
+           lazy_text("a cluster of at least ", min_cluster_size, " features"),
+           lazy_text("at most ", largest, " together among ", descriptors.size(), " features"));
     return codebook;
 }
 

@@ -13,7 +13,7 @@
 #include "ism/codebook/match_block.hpp"
 #include "ism/codebook/word_index.hpp"
 #include "ism/core/error.hpp"
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/feature/feature.hpp"
 
 namespace ism {
@@ -35,18 +35,18 @@ template <std::size_t Dimension, DescriptorScalar Scalar, DescriptorScalar WordS
                                        unsigned threads = 0, const MatchOptions& options = {}) {
     const std::size_t blocks = (descriptors.size() + detail::filter_block - 1) / detail::filter_block;
     std::vector<std::vector<Match>> found(blocks);
-    Team team(unsigned(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(1, blocks))));
+    ThreadPool pool(unsigned(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(1, blocks))));
     using Matcher = detail::BlockMatcher<Dimension, WordScalar>;
-    std::vector<Matcher> matchers(team.size(), Matcher(index));
+    std::vector<Matcher> matchers(pool.size(), Matcher(index));
     std::atomic<std::size_t> total = 0;
-    team.each(blocks, [&](std::size_t block, unsigned worker) {
+    pool.for_each(blocks, [&](std::size_t block, unsigned worker) {
         Matcher& matcher = matchers[worker];
         matcher.load(descriptors, block * detail::filter_block);
         matcher.find(options.mode);
         found[block] = matcher.matches(options.mode);
         const std::size_t so_far = total += found[block].size();
         expect(so_far <= options.max_matches, "matching: number of matches",
-               join_text("at most ", options.max_matches), "more: lower the threshold, or ask in parts");
+               lazy_text("at most ", options.max_matches), "more: lower the threshold, or ask in parts");
     });
     std::vector<Match> matches;
     matches.reserve(total);

@@ -75,7 +75,7 @@ WordIndex<Dimension, Scalar>::WordIndex(const Codebook<Dimension, Scalar>& codeb
     expect(has_unit(unit), "matching: vector unit", "one that the processor has", int(unit));
     expect(codebook.mean_sq_length.size() == codebook.size() && codebook.group.size() == codebook.size(),
            "matching: mean square lengths and groups of words", codebook.size(),
-           join_text(codebook.mean_sq_length.size(), ", ", codebook.group.size()));
+           lazy_text(codebook.mean_sq_length.size(), ", ", codebook.group.size()));
     expect(max_sq_distance_ >= 0, "matching: largest squared distance", "0 or more", max_sq_distance_);
     std::vector<float> converted;
     std::span<const float> words;

@@ -28,9 +28,9 @@ struct Camera {
 /// @throws Error where a focal length is not a positive number or the principal point not finite.
 inline void check(const Camera& camera) {
     expect(std::isfinite(camera.fx) && std::isfinite(camera.fy) && camera.fx > 0 && camera.fy > 0,
-           "camera focal lengths fx, fy", "positive pixels", join_text(camera.fx, ", ", camera.fy));
+           "camera focal lengths fx, fy", "positive pixels", lazy_text(camera.fx, ", ", camera.fy));
     expect(std::isfinite(camera.cx) && std::isfinite(camera.cy), "camera principal point cx, cy",
-           "finite pixels", join_text(camera.cx, ", ", camera.cy));
+           "finite pixels", lazy_text(camera.cx, ", ", camera.cy));
 }
 
 /// @brief The point in the camera frame that is seen at `pixel` and lies `depth_m` along the optical axis.

@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 
-#include "ism/config.hpp"
+#include "ism/core/text.hpp"
 
 namespace ism {
 
@@ -23,19 +20,22 @@ class FileError : public Error {
     using Error::Error;
 };
 
-/// @brief Joins its arguments into one string as a stream would print them.
-template <class... Parts>
-[[nodiscard]] std::string join_text(const Parts&... parts) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());  // the same text wherever the program runs
-    (text << ... << parts);
-    return text.str();
+namespace detail {
+
+/// Kept out of line: nothing of it is compiled into the loops that check.
+template <class E>
+[[noreturn, gnu::cold, gnu::noinline]] void refuse(TextPart what, TextPart expected, TextPart actual) {
+    throw E(join_text(what, ": expected ", expected, ", got ", actual));
 }
 
-/// @brief Throws E unless `holds`, with the message "`what`: expected `expected`, got `actual`".
-template <class E = Error, class Expected, class Actual>
-void expect(bool holds, std::string_view what, const Expected& expected, const Actual& actual) {
-    if (!holds) throw E(join_text(what, ": expected ", expected, ", got ", actual));
+}  // namespace detail
+
+/// @brief Throws E unless `holds`, with the message "`what`: expected `expected`, got `actual`". The message
+/// is made only then: see lazy_text() for one of several parts.
+template <class E = Error>
+void expect(bool holds, TextPart what, TextPart expected, TextPart actual) {
+    if (!holds) [[unlikely]]
+        detail::refuse<E>(what, expected, actual);
 }
 
 }  // namespace ism

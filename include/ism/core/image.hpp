@@ -59,8 +59,8 @@ public:
     /// @throws Error where it reaches outside this view.
     [[nodiscard]] ImageView region(int x, int y, int width, int height) const {
         expect(x >= 0 && y >= 0 && width >= 0 && height >= 0 && x + width <= width_ && y + height <= height_,
-               "image region", join_text("a part of ", width_, "x", height_),
-               join_text(width, "x", height, " at (", x, ", ", y, ")"));
+               "image region", lazy_text("a part of ", width_, "x", height_),
+               lazy_text(width, "x", height, " at (", x, ", ", y, ")"));
         return {data_ + y * stride_ + x, width, height, stride_};
     }
 
@@ -119,7 +119,7 @@ private:
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
     }
     [[nodiscard]] static std::size_t checked_size(int width, int height) {
-        expect(width >= 0 && height >= 0, "image size", "sides of 0 or more", join_text(width, "x", height));
+        expect(width >= 0 && height >= 0, "image size", "sides of 0 or more", lazy_text(width, "x", height));
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     }
 
@@ -135,13 +135,19 @@ using DepthMap = Image<float>;          ///< metres along the optical axis; 0 or
 using Mask = Image<std::uint8_t>;       ///< 0 = ground, anything else = figure
 
 /// @brief "640x480", for messages.
+struct SizeText {
+    int width = 0, height = 0;
+    void append_to(std::string& text) const { text += join_text(width, "x", height); }
+};
+
+/// @brief The size of an image, for messages.
 template <class I>
 requires requires(const I& image) {
     image.width();
     image.height();
 }
-[[nodiscard]] std::string size_text(const I& image) {
-    return join_text(image.width(), "x", image.height());
+[[nodiscard]] SizeText size_text(const I& image) {
+    return {image.width(), image.height()};
 }
 
 /// @brief Brightness of a colour image (ITU-R BT.601 weights), 0 … 1.

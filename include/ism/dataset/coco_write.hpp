@@ -65,8 +65,9 @@ namespace detail {
 inline void write_dataset(const std::filesystem::path& path, const Dataset& dataset) {
     using detail::Json;
     const std::string place = detail::file_text(path);
-    expect<FileError>(dataset.category_ids.size() == dataset.class_names.size(), place + ": category ids",
-                      dataset.class_names.size(), dataset.category_ids.size());
+    expect<FileError>(dataset.category_ids.size() == dataset.class_names.size(),
+                      lazy_text(place, ": category ids"), dataset.class_names.size(),
+                      dataset.category_ids.size());
     Json root = {{"images", Json::array()}, {"annotations", Json::array()}, {"categories", Json::array()}};
     for (std::size_t i = 0; i < dataset.class_names.size(); ++i)
         root["categories"].push_back({{"id", dataset.category_ids[i]}, {"name", dataset.class_names[i]}});
@@ -74,8 +75,8 @@ inline void write_dataset(const std::filesystem::path& path, const Dataset& data
         root["images"].push_back(detail::image_to_json(image, path.parent_path()));
         for (const DatasetAnnotation& annotation : image.objects) {
             expect<FileError>(annotation.class_index < dataset.class_names.size(),
-                              join_text(place, ", annotation ", annotation.id, ": class index"),
-                              join_text("below ", dataset.class_names.size()), annotation.class_index);
+                              lazy_text(place, ", annotation ", annotation.id, ": class index"),
+                              lazy_text("below ", dataset.class_names.size()), annotation.class_index);
             root["annotations"].push_back(
                 detail::annotation_to_json(image, annotation, dataset.category_ids[annotation.class_index]));
         }

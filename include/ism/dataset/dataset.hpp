@@ -85,8 +85,8 @@ struct Dataset {
 /// @throws FileError, naming the file, where one cannot be read, is of another size than the data set says,
 /// is smaller than 16×16, or has no depth reading at all.
 [[nodiscard]] inline Frame read_frame(const DatasetImage& image) {
-    const auto check_size = [&](const std::filesystem::path& file, const std::string& size) {
-        if (size != detail::sides_text(image))
+    const auto check_size = [&](const std::filesystem::path& file, const SizeText& size) {
+        if (size.width != image.width || size.height != image.height)
             throw FileError(join_text(detail::file_text(file), ": expected ", detail::sides_text(image),
                                       " pixels as its data set says, got ", size));
     };
@@ -125,15 +125,16 @@ struct Dataset {
 [[nodiscard]] inline Dataset select_classes(const Dataset& dataset, std::span<const std::string> names) {
     std::string known;
     for (const std::string& name : dataset.class_names) known += (known.empty() ? "" : ", ") + name;
-    expect(!names.empty(), "classes to select", "at least one of: " + known, "none");
+    expect(!names.empty(), "classes to select", lazy_text("at least one of: ", known), "none");
     Dataset part{.source = dataset.source};
     std::map<std::size_t, std::size_t> new_index;
     for (const std::string& name : names) {
         const auto found = std::find(dataset.class_names.begin(), dataset.class_names.end(), name);
-        expect(found != dataset.class_names.end(), "class to select", "one of: " + known, "'" + name + "'");
+        expect(found != dataset.class_names.end(), "class to select", lazy_text("one of: ", known),
+               lazy_text("'", name, "'"));
         const auto index = std::size_t(found - dataset.class_names.begin());
         expect(new_index.emplace(index, part.class_names.size()).second, "class to select", "each name once",
-               "'" + name + "' twice");
+               lazy_text("'", name, "' twice"));
         part.class_names.push_back(name);
         part.category_ids.push_back(dataset.category_ids.at(index));
     }

@@ -22,7 +22,7 @@ using Polygon = std::vector<Point2>;
 /// @throws Error where a polygon has less than 3 corners or one that is not finite or beyond 1e9, or the size
 /// is absurd.
 [[nodiscard]] inline Mask fill_polygons(std::span<const Polygon> polygons, int width, int height) {
-    expect(is_image_size(width, height), "mask size", image_size_limits, join_text(width, "x", height));
+    expect(is_image_size(width, height), "mask size", image_size_limits, lazy_text(width, "x", height));
     Mask mask(width, height);
     std::vector<double> crossings;
     for (const Polygon& polygon : polygons) {
@@ -30,7 +30,7 @@ using Polygon = std::vector<Point2>;
         double top = height, bottom = 0;
         for (const Point2& corner : polygon) {
             expect(std::abs(corner.x) <= 1e9 && std::abs(corner.y) <= 1e9, "polygon corner",
-                   "pixels up to 1e9", join_text(corner.x, ", ", corner.y));
+                   "pixels up to 1e9", lazy_text(corner.x, ", ", corner.y));
             top = std::min(top, corner.y), bottom = std::max(bottom, corner.y);
         }
         const auto first = [](double edge, int end) {  // the first pixel whose middle is not before the edge

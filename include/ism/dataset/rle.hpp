@@ -33,11 +33,11 @@ namespace detail {
 
 inline void check_run_lengths(int width, int height, std::uint64_t sum) {
     if (!is_image_size(width, height))
-        expect(false, "mask size", image_size_limits, join_text(width, "x", height));
+        expect(false, "mask size", image_size_limits, lazy_text(width, "x", height));
     const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);
     if (sum != pixels)
-        expect(false, join_text("run lengths of a ", width, "x", height, " mask"),
-               join_text("a sum of ", pixels), sum);
+        expect(false, lazy_text("run lengths of a ", width, "x", height, " mask"),
+               lazy_text("a sum of ", pixels), sum);
 }
 
 inline void check_run_lengths(const Rle& rle) {
@@ -117,7 +117,7 @@ inline void check_run_lengths(const Rle& rle) {
             const int bits = static_cast<unsigned char>(text.counts[i]) - 48;
             if (bits < 0 || bits > 63 || shift > 35)
                 expect(false, "packed run lengths", "numbers in the characters '0' to 'o'",
-                       join_text("character ", bits + 48, " at place ", i));
+                       lazy_text("character ", bits + 48, " at place ", i));
             value |= std::int64_t(bits & 0x1f) << shift;
             more = (bits & 0x20) != 0;
             if (!more && (bits & 0x10) != 0) value -= std::int64_t(1) << (shift + 5);
@@ -125,7 +125,7 @@ inline void check_run_lengths(const Rle& rle) {
         }
         if (rle.counts.size() > 2) value += rle.counts[rle.counts.size() - 2];
         if (value < 0 || value > max_image_pixels)
-            expect(false, "packed run lengths", join_text("runs of 0 to ", max_image_pixels), value);
+            expect(false, "packed run lengths", lazy_text("runs of 0 to ", max_image_pixels), value);
         rle.counts.push_back(std::uint32_t(value));
         sum += std::uint64_t(value);
     }

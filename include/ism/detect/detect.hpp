@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ism/core/frame.hpp"
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/frame_matcher.hpp"
 #include "ism/detect/hypotheses.hpp"

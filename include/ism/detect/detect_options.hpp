@@ -37,7 +37,7 @@ void check(const DetectOptions<Space>& options) {
            "0 ... 1", options.keep);
     check(options.bandwidth);
     expect(options.min_size_px >= 0 && options.max_size_px >= 0, "detection: least and largest object size",
-           "0 px or more", join_text(options.min_size_px, ", ", options.max_size_px));
+           "0 px or more", lazy_text(options.min_size_px, ", ", options.max_size_px));
 }
 
 }  // namespace ism

@@ -12,7 +12,7 @@
 
 #include "ism/codebook/match.hpp"
 #include "ism/core/frame.hpp"
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/vote/cast.hpp"

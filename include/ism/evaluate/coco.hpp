@@ -59,8 +59,10 @@ struct DatasetTruth {
         const auto image = image_of.find(result.image_id);
         const auto category = class_of.find(result.category_id);
         const std::string place = join_text("result ", found.size(), ": ");
-        expect(image != image_of.end(), place + "image_id", "an image of " + set, result.image_id);
-        expect(category != class_of.end(), place + "category_id", "a category of " + set, result.category_id);
+        expect(image != image_of.end(), lazy_text(place, "image_id"), lazy_text("an image of ", set),
+               result.image_id);
+        expect(category != class_of.end(), lazy_text(place, "category_id"), lazy_text("a category of ", set),
+               result.category_id);
         found.push_back({image->second, category->second, result.box, result.score});
     }
     return found;
@@ -81,8 +83,8 @@ template <MatchRule R>
         if (mask.empty() || !results[f].segmentation) return std::numeric_limits<double>::quiet_NaN();
         const CompressedRle& packed = *results[f].segmentation;
         expect(packed.width == mask.width() && packed.height == mask.height(),
-               join_text("result ", f, ": mask size"), size_text(mask),
-               join_text(packed.width, "x", packed.height));
+               lazy_text("result ", f, ": mask size"), size_text(mask),
+               lazy_text(packed.width, "x", packed.height));
         return mask_iou(decompress_mask(packed), mask);
     };
     return evaluate(truth.objects, detail::found_in(dataset, results), dataset.images.size(),

@@ -39,7 +39,7 @@ struct Confusion {
 [[nodiscard]] inline bool one_object_each(std::span<const TruthObject> truth, std::size_t image_count) {
     std::vector<std::size_t> objects(image_count);
     for (const TruthObject& t : truth) {
-        expect(t.image < image_count, "image of an object", join_text("below ", image_count), t.image);
+        expect(t.image < image_count, "image of an object", lazy_text("below ", image_count), t.image);
         ++objects[t.image];
     }
     for (const std::size_t count : objects)
@@ -54,19 +54,19 @@ struct Confusion {
                                          std::span<const FoundObject> found, std::size_t image_count,
                                          std::size_t class_count) {
     expect(one_object_each(truth, image_count), "objects of the images", "exactly one in each",
-           join_text(truth.size(), " in ", image_count, " images"));
+           lazy_text(truth.size(), " in ", image_count, " images"));
     std::vector<std::size_t> taken_for(image_count, class_count);
     for (const std::size_t f : by_score(found)) {
-        expect(found[f].image < image_count, "image of a found object", join_text("below ", image_count),
+        expect(found[f].image < image_count, "image of a found object", lazy_text("below ", image_count),
                found[f].image);
         expect(found[f].class_index < class_count, "class of a found object",
-               join_text("below ", class_count), found[f].class_index);
+               lazy_text("below ", class_count), found[f].class_index);
         if (taken_for[found[f].image] == class_count) taken_for[found[f].image] = found[f].class_index;
     }
     Confusion matrix{.class_count = class_count,
                      .counts = std::vector<std::size_t>(class_count * (class_count + 1))};
     for (const TruthObject& t : truth) {
-        expect(t.class_index < class_count, "class of an object", join_text("below ", class_count),
+        expect(t.class_index < class_count, "class of an object", lazy_text("below ", class_count),
                t.class_index);
         ++matrix.counts[t.class_index * (class_count + 1) + taken_for[t.image]];
     }

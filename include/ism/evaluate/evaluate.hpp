@@ -110,10 +110,10 @@ template <MatchRule Rule, MaskOverlap Masks = NoMasks>
                                   std::size_t image_count, std::span<const std::string> class_names,
                                   const Rule& rule, Masks masks = {}) {
     const auto check = [&](const auto& object, const char* whose) {
-        expect(object.image < image_count, join_text("image of ", whose), join_text("below ", image_count),
+        expect(object.image < image_count, lazy_text("image of ", whose), lazy_text("below ", image_count),
                object.image);
-        expect(object.class_index < class_names.size(), join_text("class of ", whose),
-               join_text("below ", class_names.size()), object.class_index);
+        expect(object.class_index < class_names.size(), lazy_text("class of ", whose),
+               lazy_text("below ", class_names.size()), object.class_index);
     };
     for (const TruthObject& t : truth) check(t, "an object");
     for (const FoundObject& f : found) check(f, "a found object");

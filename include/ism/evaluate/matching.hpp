@@ -98,7 +98,7 @@ struct Judgement {
     for (const FoundObject& f : found) {
         expect(std::isfinite(f.score), "score of a found object", "a finite number", f.score);
         expect(std::isfinite(f.box.x + f.box.y + f.box.width + f.box.height), "box of a found object",
-               "finite numbers", join_text(f.box.x, ", ", f.box.y, ", ", f.box.width, ", ", f.box.height));
+               "finite numbers", lazy_text(f.box.x, ", ", f.box.y, ", ", f.box.width, ", ", f.box.height));
     }
     std::vector<std::size_t> order(found.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -55,7 +55,7 @@ struct PrecisionRecall {
                                 .precision = double(right) / double(i + 1),
                                 .recall = objects > 0 ? double(right) / double(objects) : 0});
     }
-    expect(right <= objects, "right detections", join_text("at most ", objects, ", one an object"), right);
+    expect(right <= objects, "right detections", lazy_text("at most ", objects, ", one an object"), right);
     return curve;
 }
 

@@ -133,7 +133,7 @@ inline void blur(ImageView<const float> image, std::span<const float> kernel, Im
     if (image.empty()) return;
     const int radius = int(kernel.size()) - 1, width = image.width(), height = image.height();
     const int tasks = (height + rows_per_task - 1) / rows_per_task;
-    workspace.team().each(std::size_t(tasks), [&](std::size_t task, unsigned worker) {
+    workspace.pool().for_each(std::size_t(tasks), [&](std::size_t task, unsigned worker) {
         const int first = int(task) * rows_per_task;
         detail::blur_band([&](int y) { return image.row(y).data(); }, width, height, kernel, first,
                           std::min(height, first + rows_per_task),

@@ -31,7 +31,7 @@ struct Region {
 template <Detector D, Descriptor Desc>
 class FeatureExtractor {
 public:
-    /// @param threads  of the team that works on an image (0 = all the machine has)
+    /// @param threads  of the pool that works on an image (0 = all the machine has)
     explicit FeatureExtractor(Extractor<D, Desc> extractor = {}, unsigned threads = 1)
         : extractor_(std::move(extractor)), workspace_(threads) {}
 
@@ -87,12 +87,12 @@ private:
     template <std::invocable<int> Body>
     void each_row(int rows, const Body& body) {
         constexpr int rows_per_task = 32;
-        workspace_.team().each(std::size_t(rows + rows_per_task - 1) / rows_per_task,
-                               [&](std::size_t task, unsigned) {
-                                   const int first = int(task) * rows_per_task;
-                                   for (int y = first; y < std::min(rows, first + rows_per_task); ++y)
-                                       body(y);
-                               });
+        workspace_.pool().for_each(std::size_t(rows + rows_per_task - 1) / rows_per_task,
+                                   [&](std::size_t task, unsigned) {
+                                       const int first = int(task) * rows_per_task;
+                                       for (int y = first; y < std::min(rows, first + rows_per_task); ++y)
+                                           body(y);
+                                   });
     }
 
     /// The features of a region, or of the whole image.
@@ -100,7 +100,7 @@ private:
         if (!region) return run(image, 0, 0, {0, 0, image.width(), image.height()});
         (void)image.region(region->x, region->y, region->width, region->height);
         expect(region->width >= 16 && region->height >= 16, "image region size", "at least 16x16",
-               join_text(region->width, "x", region->height));
+               lazy_text(region->width, "x", region->height));
         // around it what descriptors and blur reach; from such pixels on that the octaves keep their places
         constexpr int margin = 64, grid = 32;
         const int x0 = std::max(0, region->x - margin) / grid * grid;
@@ -129,7 +129,7 @@ private:
         const D& detector = extractor_.detector;
         if constexpr (RowDetector<D>) {
             detector.check();
-            const auto found = workspace_.lists(workspace_.team().size());
+            const auto found = workspace_.lists(workspace_.pool().size());
             space_.build(image, options, workspace_, D::search_reach,
                          [&](int octave, int first, int end, unsigned worker) {
                              detector.search(space_, octave, first, end, workspace_, worker, found[worker]);
@@ -178,7 +178,7 @@ private:
         constexpr std::size_t features_per_task = 32;
         const std::size_t count = set_.features.size();
         set_.descriptors.resize(count);
-        workspace_.team().each(
+        workspace_.pool().for_each(
             (count + features_per_task - 1) / features_per_task, [&](std::size_t task, unsigned) {
                 const std::size_t first = task * features_per_task;
                 for (std::size_t i = first; i < std::min(count, first + features_per_task); ++i)

@@ -110,8 +110,8 @@ requires std::invocable<MemoryFor, int, int, int> &&
     const std::size_t levels = std::size_t(space.levels_per_octave());
     std::size_t tasks = 0;
     for (int octave = 0; octave < space.octaves(); ++octave) tasks += levels * bands_of(octave);
-    const auto found = workspace.lists(workspace.team().size());
-    workspace.team().each(tasks, [&](std::size_t task, unsigned worker) {
+    const auto found = workspace.lists(workspace.pool().size());
+    workspace.pool().for_each(tasks, [&](std::size_t task, unsigned worker) {
         int octave = 0;
         std::size_t part = task;
         for (; part >= levels * bands_of(octave); ++octave) part -= levels * bands_of(octave);

@@ -64,7 +64,7 @@ struct SubPixel {
         if (octave_a != octave_b) return octave_a < octave_b;
         return std::tie(a.y, a.x, a.scale, a.strength) < std::tie(b.y, b.x, b.scale, b.strength);
     };
-    workspace.team().each(
+    workspace.pool().for_each(
         lists.size(), [&](std::size_t i, unsigned) { std::sort(lists[i].begin(), lists[i].end(), less); });
     std::vector<Feature> all = workspace.empty_list(), other = workspace.empty_list();
     for (const std::vector<Feature>& list : lists) {

@@ -130,7 +130,7 @@ struct Directions {
     expect(options.max_peaks >= 1, "orientation max_peaks", "1 or more", options.max_peaks);
     constexpr std::size_t features_per_task = 64;
     const auto parts = workspace.lists((features.size() + features_per_task - 1) / features_per_task);
-    workspace.team().each(parts.size(), [&](std::size_t task, unsigned) {
+    workspace.pool().for_each(parts.size(), [&](std::size_t task, unsigned) {
         const std::size_t first = task * features_per_task;
         for (const Feature& f :
              features.subspan(first, std::min(features_per_task, features.size() - first))) {

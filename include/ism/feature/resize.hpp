@@ -24,7 +24,7 @@ namespace ism {
     const double width = std::floor((image.width() - 1) * factor) + 1;
     const double height = std::floor((image.height() - 1) * factor) + 1;
     expect(width <= 1 << 16 && height <= 1 << 16, "resized image size", "at most 65536x65536",
-           join_text(width, "x", height));
+           lazy_text(width, "x", height));
     GrayImage smooth;
     const double missing = input_sigma * std::sqrt(std::max(0.0, 1 / (factor * factor) - 1));
     if (missing > 0.01) {
@@ -33,7 +33,7 @@ namespace ism {
         image = smooth;
     }
     GrayImage out = workspace.image(static_cast<int>(width), static_cast<int>(height));
-    workspace.team().each(std::size_t(out.height()), [&](std::size_t row, unsigned) {
+    workspace.pool().for_each(std::size_t(out.height()), [&](std::size_t row, unsigned) {
         for (int x = 0; x < out.width(); ++x)
             out(x, int(row)) = sample_bilinear(image, float(x / factor), float(double(row) / factor));
     });

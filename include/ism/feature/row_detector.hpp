@@ -35,8 +35,8 @@ template <RowDetector D>
     };
     std::size_t tasks = 0;
     for (int octave = 0; octave < space.octaves(); ++octave) tasks += tasks_of(octave);
-    const auto found = workspace.lists(workspace.team().size());
-    workspace.team().each(tasks, [&](std::size_t task, unsigned worker) {
+    const auto found = workspace.lists(workspace.pool().size());
+    workspace.pool().for_each(tasks, [&](std::size_t task, unsigned worker) {
         int octave = 0;
         for (; task >= tasks_of(octave); ++octave) task -= tasks_of(octave);
         const int first = int(task) * rows_per_task, height = space.level(octave, 0).height();

@@ -76,7 +76,7 @@ public:
                 else
                     make_level(image, o, int(stage) - 1, kernels[stage], first, end, worker, workspace);
             };
-            detail::sweep_rows(workspace.team(), octaves_[std::size_t(o)].height,
+            detail::sweep_rows(workspace.pool(), octaves_[std::size_t(o)].height,
                                std::span(reaches).first(stages), make);
             kernels[1] = {};  // the first level of the next octave is there
         }

@@ -10,7 +10,7 @@
 
 #include "ism/core/aligned.hpp"
 #include "ism/core/image.hpp"
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/gaussian_kernel.hpp"
 
@@ -21,11 +21,11 @@ namespace ism {
 class Workspace {
 public:
     /// @brief For so many threads, the caller's among them (0 = all the machine has).
-    explicit Workspace(unsigned threads = 1) : team_(threads), rows_(team_.size()) {}
+    explicit Workspace(unsigned threads = 1) : pool_(threads), rows_(pool_.size()) {}
 
-    [[nodiscard]] Team& team() { return team_; }
+    [[nodiscard]] ThreadPool& pool() { return pool_; }
 
-    /// @brief `count` numbers for one worker of the team, until it asks again; their values are open. The
+    /// @brief `count` numbers for one worker of the pool, until it asks again; their values are open. The
     /// first lies at the start of a cache line.
     [[nodiscard]] std::span<float> rows(unsigned worker, std::size_t count) {
         AlignedVector<float>& own = rows_[worker];
@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    Team team_;
+    ThreadPool pool_;
     std::vector<AlignedVector<float>> rows_;
     std::vector<std::vector<Feature>> lists_, spare_;
     std::vector<std::vector<std::uint32_t>> numbers_;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/number_text.hpp"
 
 namespace ism {
 
@@ -108,7 +109,7 @@ void write_file(const std::filesystem::path& path, Write&& write) {
     fs::path temporary = target;
     if (!direct) {
         std::random_device device;
-        temporary += join_text(".", std::hex, device(), device(), ".tmp");
+        temporary += join_text(".", hex_text(device(), 8), hex_text(device(), 8), ".tmp");
     }
     const auto remove_temporary = [&] {
         if (!direct) fs::remove(temporary, failure);

@@ -32,28 +32,29 @@ inline void appearance_to_tensors(const Appearance& appearance, TensorFile& file
 [[nodiscard]] inline Appearance appearance_from_tensors(const TensorFile& file, std::size_t words,
                                                         std::size_t classes) {
     const auto bias = values<float>(file, "appearance_bias", {any_length});
-    expect<FileError>(bias.empty() || bias.size() == classes, file.source + ": appearance_bias",
-                      join_text("0 or ", classes, " numbers"), bias.size());
+    expect<FileError>(bias.empty() || bias.size() == classes, lazy_text(file.source, ": appearance_bias"),
+                      lazy_text("0 or ", classes, " numbers"), bias.size());
     const auto first = values<std::uint32_t>(file, "appearance_first", {bias.size() + 1});
     const auto weights = values<float>(file, "appearance_weights", {any_length});
     const auto bins = values<std::uint32_t>(file, "appearance_bins", {weights.size()});
     expect<FileError>(first.front() == 0 && first.back() == weights.size(),
-                      file.source + ": appearance_first", join_text("0 to ", weights.size()),
-                      join_text(first.front(), " to ", first.back()));
+                      lazy_text(file.source, ": appearance_first"), lazy_text("0 to ", weights.size()),
+                      lazy_text(first.front(), " to ", first.back()));
     for (const auto& numbers : {bias, weights})
         for (const float number : numbers)
-            expect<FileError>(std::isfinite(number), file.source + ": appearance", "finite numbers", number);
+            expect<FileError>(std::isfinite(number), lazy_text(file.source, ": appearance"), "finite numbers",
+                              number);
     Appearance appearance;
     for (std::size_t c = 0; c < bias.size(); ++c) {
         expect<FileError>(first[c] <= first[c + 1] && first[c + 1] <= weights.size(),
-                          file.source + ": appearance_first", "rising numbers",
-                          join_text(first[c], " before ", first[c + 1]));
+                          lazy_text(file.source, ": appearance_first"), "rising numbers",
+                          lazy_text(first[c], " before ", first[c + 1]));
         std::vector<BinValue> own;
         for (std::size_t i = first[c]; i < first[c + 1]; ++i) {
             expect<FileError>(
                 bins[i] < Appearance::cells * words && (own.empty() || own.back().bin < bins[i]),
-                file.source + ": appearance_bins",
-                join_text("rising numbers below ", Appearance::cells * words), bins[i]);
+                lazy_text(file.source, ": appearance_bins"),
+                lazy_text("rising numbers below ", Appearance::cells * words), bins[i]);
             own.push_back({bins[i], weights[i]});
         }
         appearance.push_back(own, bias[c]);

@@ -52,12 +52,12 @@ inline constexpr std::int64_t model_format_version = 5;
     expect<FileError>(format != file.metadata.end() && format->second == model_format, file.source,
                       "a model of ism", "another safetensors file");
     const double version = metadata_number(file, "format_version");
-    expect<FileError>(version == double(model_format_version), file.source + ": format version",
+    expect<FileError>(version == double(model_format_version), lazy_text(file.source, ": format version"),
                       model_format_version, version);
     expect<FileError>(file.has_checksum, file.source, "a checksum", "none");
     for (const auto& [key, here] :
          {std::pair("reference_size_px", reference_size_px), std::pair("mask_cell_px", mask_cell_px)})
-        expect<FileError>(metadata_number(file, key) == here, file.source + ": " + key, here,
+        expect<FileError>(metadata_number(file, key) == here, lazy_text(file.source, ": ", key), here,
                           metadata_text(file, key));
     return file;
 }
@@ -95,20 +95,20 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
     Codebook<Dimension, Scalar> codebook;
     codebook.words = Descriptors<Scalar, Dimension>(words);
     codebook.max_sq_distance = metadata_number(file, "max_sq_distance");
-    expect<FileError>(words > 0, file.source + ": words", "1 or more", 0);
-    expect<FileError>(codebook.max_sq_distance >= 0, file.source + ": max_sq_distance", "0 or more",
+    expect<FileError>(words > 0, lazy_text(file.source, ": words"), "1 or more", 0);
+    expect<FileError>(codebook.max_sq_distance >= 0, lazy_text(file.source, ": max_sq_distance"), "0 or more",
                       codebook.max_sq_distance);
     for (const Scalar number : numbers)
-        expect<FileError>(std::isfinite(float(number)), file.source + ": words", "finite numbers",
+        expect<FileError>(std::isfinite(float(number)), lazy_text(file.source, ": words"), "finite numbers",
                           float(number));
     for (const float length : lengths)
-        expect<FileError>(std::isfinite(length) && length >= 0, file.source + ": mean_sq_length", "0 or more",
-                          length);
+        expect<FileError>(std::isfinite(length) && length >= 0, lazy_text(file.source, ": mean_sq_length"),
+                          "0 or more", length);
     for (const std::uint32_t group : groups)
-        expect<FileError>(group < classes, file.source + ": group of a word", join_text("below ", classes),
-                          group);
+        expect<FileError>(group < classes, lazy_text(file.source, ": group of a word"),
+                          lazy_text("below ", classes), group);
     for (const std::uint32_t size : sizes)
-        expect<FileError>(size > 0, file.source + ": word_sizes", "1 or more", size);
+        expect<FileError>(size > 0, lazy_text(file.source, ": word_sizes"), "1 or more", size);
     std::copy(numbers.begin(), numbers.end(), codebook.words.values().begin());
     codebook.mean_sq_length.assign(lengths.begin(), lengths.end());
     codebook.group.assign(groups.begin(), groups.end());
@@ -123,13 +123,13 @@ template <std::size_t Dimension, DescriptorScalar Scalar>
     if (!file.tensors.contains("memory")) return {};
     const auto numbers = values<Scalar>(file, "memory", {any_length, Dimension});
     for (const Scalar number : numbers)
-        expect<FileError>(std::isfinite(float(number)), file.source + ": memory", "finite numbers",
+        expect<FileError>(std::isfinite(float(number)), lazy_text(file.source, ": memory"), "finite numbers",
                           float(number));
     Descriptors<Scalar, Dimension> memory(numbers.size() / Dimension);
     std::copy(numbers.begin(), numbers.end(), memory.values().begin());
     for (const Occurrence& o : shapes.occurrences)
-        expect<FileError>(o.feature < memory.size(), file.source + ": feature of an occurrence",
-                          join_text("below the ", memory.size(), " that are kept"), o.feature);
+        expect<FileError>(o.feature < memory.size(), lazy_text(file.source, ": feature of an occurrence"),
+                          lazy_text("below the ", memory.size(), " that are kept"), o.feature);
     return memory;
 }
 
@@ -145,8 +145,8 @@ void save_model(const std::filesystem::path& path, const Model<D, Desc>& model) 
     // A member that is added to Codebook does not compile here until it is kept too.
     [[maybe_unused]] const auto& [rows, lengths, groups, max_sq_distance, sizes] = model.codebook;
     const std::size_t words = model.codebook.size();
-    expect<FileError>(words > 0 && model.shapes.first.size() == words + 1, file.source + ": word ranges",
-                      words + 1, model.shapes.first.size());
+    expect<FileError>(words > 0 && model.shapes.first.size() == words + 1,
+                      lazy_text(file.source, ": word ranges"), words + 1, model.shapes.first.size());
     ExtractOptions extraction = model.extractor.options;
     Json options = Json::object();
     detail::each_extract_parameter(extraction, detail::WriteParameter{options, file.source});
@@ -188,12 +188,13 @@ template <Detector D, Descriptor Desc>
 [[nodiscard]] Model<D, Desc> load_model(const std::filesystem::path& path) {
     const TensorFile file = detail::open_model(path);
     const ModelInfo info = detail::model_info(file);
-    expect<FileError>(info.detector == D::name, file.source + ": detector", D::name, info.detector);
-    expect<FileError>(info.descriptor == Desc::name, file.source + ": descriptor", Desc::name,
+    expect<FileError>(info.detector == D::name, lazy_text(file.source, ": detector"), D::name, info.detector);
+    expect<FileError>(info.descriptor == Desc::name, lazy_text(file.source, ": descriptor"), Desc::name,
                       info.descriptor);
     const std::string_view scalar = type_name(tensor_type<typename Desc::Scalar>);
-    expect<FileError>(info.scalar == scalar, file.source + ": descriptor scalar", scalar, info.scalar);
-    expect<FileError>(info.dimension == Desc::dimension, file.source + ": descriptor dimension",
+    expect<FileError>(info.scalar == scalar, lazy_text(file.source, ": descriptor scalar"), scalar,
+                      info.scalar);
+    expect<FileError>(info.dimension == Desc::dimension, lazy_text(file.source, ": descriptor dimension"),
                       Desc::dimension, info.dimension);
     Model<D, Desc> model;
     const std::string place = file.source + ", parameters";
@@ -205,7 +206,7 @@ template <Detector D, Descriptor Desc>
     detail::read_parameters(
         detail::member(parameters, "extraction", place), place + " of extraction",
         [&](const auto& read) { detail::each_extract_parameter(model.extractor.options, read); });
-    expect<FileError>(info.upsampling > 0, place + ": upsampling", "above 0", info.upsampling);
+    expect<FileError>(info.upsampling > 0, lazy_text(place, ": upsampling"), "above 0", info.upsampling);
     model.codebook = detail::codebook_from_tensors<Desc::dimension, typename Desc::Scalar>(
         file, info.words, info.class_names.size());
     model.shapes = detail::shapes_from_tensors(file, info.words);

@@ -62,7 +62,7 @@ public:
     requires std::integral<T> || std::floating_point<T>
     void operator()(const char* name, const T& value) const {
         if constexpr (std::floating_point<T>) {
-            expect<FileError>(std::isfinite(value), place + ": " + name, "a finite number", value);
+            expect<FileError>(std::isfinite(value), lazy_text(place, ": ", name), "a finite number", value);
             object[name] = readable(value);
         } else {
             object[name] = value;
@@ -116,8 +116,8 @@ template <std::invocable<const ReadParameter&> Read>
 void read_parameters(const Json& object, const std::string& place, Read&& read) {
     std::size_t count = 0;
     read(ReadParameter{object, place, count});
-    expect<FileError>(object.is_object() && object.size() == count, place + ": number of parameters", count,
-                      object.size());
+    expect<FileError>(object.is_object() && object.size() == count,
+                      lazy_text(place, ": number of parameters"), count, object.size());
 }
 
 /// The options of a detector or descriptor as a JSON object.

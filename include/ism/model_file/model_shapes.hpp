@@ -34,16 +34,17 @@ inline void pack_mask(const Mask& mask, std::vector<std::uint8_t>& runs) {
 /// The next mask of the runs, which are then taken off the front.
 [[nodiscard]] inline Mask unpack_mask(std::span<const std::uint8_t>& runs, std::uint32_t width,
                                       std::uint32_t height, const std::string& place) {
-    expect<FileError>(is_image_size(width, height), place + ": mask size", image_size_limits,
-                      join_text(width, "x", height));
+    expect<FileError>(is_image_size(width, height), lazy_text(place, ": mask size"), image_size_limits,
+                      lazy_text(width, "x", height));
     const std::size_t cells = std::size_t(width) * height;
-    expect<FileError>(cells <= runs.size() / 2 * 255, place + ": mask cells",
-                      join_text("at most ", runs.size() / 2 * 255), cells);
+    expect<FileError>(cells <= runs.size() / 2 * 255, lazy_text(place, ": mask cells"),
+                      lazy_text("at most ", runs.size() / 2 * 255), cells);
     Mask mask(static_cast<int>(width), static_cast<int>(height));
     std::size_t at = 0;
     while (at < cells) {
-        expect<FileError>(runs.size() >= 2 && runs[0] > 0 && runs[0] <= cells - at, place + ": mask run",
-                          join_text("1 to ", cells - at, " cells"), runs.size() < 2 ? 0 : int(runs[0]));
+        expect<FileError>(runs.size() >= 2 && runs[0] > 0 && runs[0] <= cells - at,
+                          lazy_text(place, ": mask run"), lazy_text("1 to ", cells - at, " cells"),
+                          runs.size() < 2 ? 0 : int(runs[0]));
         std::fill_n(mask.pixels().begin() + std::ptrdiff_t(at), runs[0], runs[1]);
         at += runs[0];
         runs = runs.subspan(2);
@@ -105,23 +106,24 @@ inline void shapes_to_tensors(const Shapes& shapes, TensorFile& file) {
 
 [[nodiscard]] inline std::vector<std::string> read_class_names(const TensorFile& file) {
     std::vector<std::string> names = metadata_texts(file, "class_names");
-    expect<FileError>(!names.empty(), file.source + ": class names", "1 or more", "none");
+    expect<FileError>(!names.empty(), lazy_text(file.source, ": class names"), "1 or more", "none");
     expect<FileError>(std::set(names.begin(), names.end()).size() == names.size(),
-                      file.source + ": class names", "each once", "one twice");
+                      lazy_text(file.source, ": class names"), "each once", "one twice");
     return names;
 }
 
 /// @throws FileError where a number is out of range.
 inline void check_occurrence(const Occurrence& o, const Shapes& shapes, const std::string& place) {
-    expect<FileError>(std::isfinite(o.x) && std::isfinite(o.y), place + ": x, y", "finite numbers",
-                      join_text(o.x, ", ", o.y));
-    expect<FileError>(std::isfinite(o.scale) && o.scale > 0, place + ": scale", "above 0", o.scale);
-    expect<FileError>(!std::isinf(o.depth_m), place + ": depth", "metres or NaN", o.depth_m);
-    expect<FileError>(std::isfinite(o.weight) && o.weight >= 0, place + ": weight", "0 or more", o.weight);
-    expect<FileError>(o.object < shapes.objects.size(), place + ": object",
-                      join_text("below ", shapes.objects.size()), o.object);
-    expect<FileError>(o.class_index == shapes.objects[o.object].class_index, place + ": class",
-                      join_text(shapes.objects[o.object].class_index, " as its object"), o.class_index);
+    expect<FileError>(std::isfinite(o.x) && std::isfinite(o.y), lazy_text(place, ": x, y"), "finite numbers",
+                      lazy_text(o.x, ", ", o.y));
+    expect<FileError>(std::isfinite(o.scale) && o.scale > 0, lazy_text(place, ": scale"), "above 0", o.scale);
+    expect<FileError>(!std::isinf(o.depth_m), lazy_text(place, ": depth"), "metres or NaN", o.depth_m);
+    expect<FileError>(std::isfinite(o.weight) && o.weight >= 0, lazy_text(place, ": weight"), "0 or more",
+                      o.weight);
+    expect<FileError>(o.object < shapes.objects.size(), lazy_text(place, ": object"),
+                      lazy_text("below ", shapes.objects.size()), o.object);
+    expect<FileError>(o.class_index == shapes.objects[o.object].class_index, lazy_text(place, ": class"),
+                      lazy_text(shapes.objects[o.object].class_index, " as its object"), o.class_index);
 }
 
 /// Reads what shapes_to_tensors() wrote, for a codebook of `words` words.
@@ -134,8 +136,9 @@ inline void check_occurrence(const Occurrence& o, const Shapes& shapes, const st
     const auto sides = values<std::uint32_t>(file, "mask_sizes", {objects, 2});
     auto runs = values<std::uint8_t>(file, "mask_runs", {any_length, 2});
     const std::vector<std::string> images = metadata_texts(file, "images");
-    expect<FileError>(objects > 0, file.source + ": training objects", "1 or more", 0);
-    expect<FileError>(images.size() == objects, file.source + ": image names", objects, images.size());
+    expect<FileError>(objects > 0, lazy_text(file.source, ": training objects"), "1 or more", 0);
+    expect<FileError>(images.size() == objects, lazy_text(file.source, ": image names"), objects,
+                      images.size());
     for (std::size_t i = 0; i < objects; ++i) {
         const std::string place = join_text(file.source, ", object ", i);
         TrainingObject object{.class_index = classes[i],
@@ -144,23 +147,26 @@ inline void check_occurrence(const Occurrence& o, const Shapes& shapes, const st
                               .size_px = sizes[3 * i + 2],
                               .mask = unpack_mask(runs, sides[2 * i], sides[2 * i + 1], place),
                               .image = images[i]};
-        expect<FileError>(object.class_index < shapes.class_names.size(), place + ": class",
-                          join_text("below ", shapes.class_names.size()), object.class_index);
+        expect<FileError>(object.class_index < shapes.class_names.size(), lazy_text(place, ": class"),
+                          lazy_text("below ", shapes.class_names.size()), object.class_index);
         for (const float side : {object.width, object.height, object.size_px})
-            expect<FileError>(std::isfinite(side) && side > 0, place + ": size", "above 0 px", side);
+            expect<FileError>(std::isfinite(side) && side > 0, lazy_text(place, ": size"), "above 0 px",
+                              side);
         shapes.objects.push_back(std::move(object));
     }
-    expect<FileError>(runs.empty(), file.source + ": mask runs", "as many as the masks need", "more");
+    expect<FileError>(runs.empty(), lazy_text(file.source, ": mask runs"), "as many as the masks need",
+                      "more");
 
     const auto first = values<std::uint32_t>(file, "first_occurrence", {words + 1});
     const auto numbers = values<float>(file, "occurrences", {any_length, 5});
     const std::size_t count = numbers.size() / 5;
     const auto indices = values<std::uint32_t>(file, "occurrence_indices", {count, 3});
-    expect<FileError>(first.front() == 0 && first.back() == count, file.source + ": first_occurrence",
-                      join_text("0 to ", count), join_text(first.front(), " to ", first.back()));
+    expect<FileError>(first.front() == 0 && first.back() == count,
+                      lazy_text(file.source, ": first_occurrence"), lazy_text("0 to ", count),
+                      lazy_text(first.front(), " to ", first.back()));
     for (std::size_t w = 0; w < words; ++w)
-        expect<FileError>(first[w] <= first[w + 1], file.source + ": first_occurrence", "rising numbers",
-                          join_text(first[w], " before ", first[w + 1]));
+        expect<FileError>(first[w] <= first[w + 1], lazy_text(file.source, ": first_occurrence"),
+                          "rising numbers", lazy_text(first[w], " before ", first[w + 1]));
     shapes.first.assign(first.begin(), first.end());
     shapes.occurrences.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -47,15 +47,15 @@ inline constexpr std::size_t max_header_bytes = std::size_t(1) << 24;
     file.source = std::move(source);
     const auto read = [&](void* to, std::size_t count) {
         stream.read(static_cast<char*>(to), std::streamsize(count));
-        expect<FileError>(std::size_t(stream.gcount()) == count, file.source, join_text(count, " more bytes"),
+        expect<FileError>(std::size_t(stream.gcount()) == count, file.source, lazy_text(count, " more bytes"),
                           stream.gcount());
     };
     std::uint64_t header_bytes = 0;
-    expect<FileError>(file_bytes >= 8, file.source, "a safetensors file", join_text(file_bytes, " bytes"));
+    expect<FileError>(file_bytes >= 8, file.source, "a safetensors file", lazy_text(file_bytes, " bytes"));
     read(&header_bytes, 8);
     expect<FileError>(header_bytes >= 2 && header_bytes <= std::min(max_header_bytes, file_bytes - 8),
-                      file.source + ": header length",
-                      join_text("2 to ", std::min(max_header_bytes, file_bytes - 8)), header_bytes);
+                      lazy_text(file.source, ": header length"),
+                      lazy_text("2 to ", std::min(max_header_bytes, file_bytes - 8)), header_bytes);
     std::string text(std::size_t(header_bytes), ' ');
     read(text.data(), text.size());
     expect<FileError>(text[0] == '{', file.source, "a header that begins with '{'", "another character");
@@ -113,8 +113,8 @@ inline void write_safetensors(const std::filesystem::path& path, const TensorFil
     const auto order = detail::storage_order(file);
     for (const auto& [name, tensor] : order) {
         expect<FileError>(detail::shape_fills(tensor->shape, tensor->type, tensor->bytes.size()),
-                          text + ", tensor '" + name + "': bytes",
-                          join_text(type_name(tensor->type), detail::shape_text(tensor->shape)),
+                          lazy_text(text, ", tensor '", name, "': bytes"),
+                          lazy_text(type_name(tensor->type), detail::shape_text(tensor->shape)),
                           tensor->bytes.size());
         header[name] = {{"dtype", std::string(type_name(tensor->type))},
                         {"shape", tensor->shape},
@@ -123,8 +123,8 @@ inline void write_safetensors(const std::filesystem::path& path, const TensorFil
     }
     std::string head = detail::dump_json(header, text);
     head.append((8 - head.size() % 8) % 8, ' ');  // the data begin at a multiple of 8
-    expect<FileError>(head.size() <= detail::max_header_bytes, text + ": bytes of header",
-                      join_text("up to ", detail::max_header_bytes), head.size());
+    expect<FileError>(head.size() <= detail::max_header_bytes, lazy_text(text, ": bytes of header"),
+                      lazy_text("up to ", detail::max_header_bytes), head.size());
     write_file(path, [&](std::ostream& stream) {
         const std::uint64_t length = head.size();
         stream.write(reinterpret_cast<const char*>(&length), 8);

@@ -104,7 +104,7 @@ inline void check_segmentation(const Segmentation& part) {
                                           std::size_t which, std::span<const std::string> class_names,
                                           const OverlayOptions& options = {}) {
     expect(which < detections.objects.size(), "index of a detection",
-           join_text("below ", detections.objects.size()), which);
+           lazy_text("below ", detections.objects.size()), which);
     const Detection& detection = detections.objects[which];
     if (!options.close_up) return detail::four_panels(picture, detections, detection, class_names, options);
     const Box part =

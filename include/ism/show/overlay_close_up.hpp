@@ -27,7 +27,7 @@ namespace ism::detail {
             seen, {double(part.x), double(part.y), double(part.mask.width()), double(part.mask.height())});
     for (const Support& s : detection.support) {
         expect(s.feature < detections.features.size(), "feature of a vote",
-               join_text("below ", detections.features.size()), s.feature);
+               lazy_text("below ", detections.features.size()), s.feature);
         const Feature& f = detections.features[s.feature];
         const double radius = circle_scales * double(f.scale);
         seen = enclosing(seen, {double(f.x) - radius, double(f.y) - radius, 2 * radius, 2 * radius});

@@ -47,7 +47,7 @@ namespace ism::detail {
 
 /// "cup 0.83"
 [[nodiscard]] inline std::string label_text(const Detection& detection, std::span<const std::string> names) {
-    expect(detection.class_index < names.size(), "class of a detection", join_text("below ", names.size()),
+    expect(detection.class_index < names.size(), "class of a detection", lazy_text("below ", names.size()),
            detection.class_index);
     return names[detection.class_index] + " " + number_text(detection.score, 3);
 }
@@ -86,7 +86,7 @@ struct FeatureWeight {
                                                                 const Detection& detection) {
     std::vector<FeatureWeight> weights(detections.features.size());
     for (const Support& s : detection.support) {
-        expect(s.feature < weights.size(), "feature of a vote", join_text("below ", weights.size()),
+        expect(s.feature < weights.size(), "feature of a vote", lazy_text("below ", weights.size()),
                s.feature);
         weights[s.feature] = {s.feature, weights[s.feature].weight + double(s.weight)};
     }

@@ -77,9 +77,9 @@ namespace detail {
 [[nodiscard]] inline std::string to_svg(const Plot& plot) {
     for (const PlotRange& range : {plot.x_range, plot.y_range})
         expect(std::isfinite(range.high - range.low) && range.high > range.low, "range of a plot",
-               "low below high", join_text(range.low, " to ", range.high));
+               "low below high", lazy_text(range.low, " to ", range.high));
     expect(plot.width_px >= 160 && plot.height_px >= 120, "plot size", "at least 160x120",
-           join_text(plot.width_px, "x", plot.height_px));
+           lazy_text(plot.width_px, "x", plot.height_px));
     const double left = 58, right = plot.width_px - 14.0, top = 34, bottom = plot.height_px - 48.0;
     const auto px = [&](double x) {
         return left + (x - plot.x_range.low) / (plot.x_range.high - plot.x_range.low) * (right - left);
@@ -117,8 +117,8 @@ namespace detail {
            "\" viewBox=\"" + detail::svg_number(left) + " " + detail::svg_number(top - 2) + " " +
            detail::svg_number(right - left + 2) + " " + detail::svg_number(bottom - top + 4) + "\">\n";
     for (const PlotCurve& curve : plot.curves) {
-        expect(curve.x.size() == curve.y.size(), "curve '" + curve.name + "': numbers of y", curve.x.size(),
-               curve.y.size());
+        expect(curve.x.size() == curve.y.size(), lazy_text("curve '", curve.name, "': numbers of y"),
+               curve.x.size(), curve.y.size());
         std::string path;
         bool pen_down = false;
         for (std::size_t i = 0; i < curve.x.size(); ++i) {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/detect/frame_matcher.hpp"
 #include "ism/detect/hypotheses.hpp"
 #include "ism/model/model.hpp"
@@ -81,19 +81,19 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
                                                                unsigned threads, const Progress& progress) {
     expect(first_object.size() > 1 && first_object.back() <= model.shapes.objects.size(),
            "judge of boxes: where the objects of each image begin",
-           join_text("2 numbers or more, the last at most ", model.shapes.objects.size()),
-           join_text(first_object.size(), " numbers",
+           lazy_text("2 numbers or more, the last at most ", model.shapes.objects.size()),
+           lazy_text(first_object.size(), " numbers",
                      first_object.empty() ? "" : join_text(", the last ", first_object.back())));
     const std::size_t images = first_object.size() - 1;
     const DetectOptions<Jism> search{.max_candidates = std::max<std::size_t>(3, options.max_samples / images),
                                      .threads = 1};
-    Team team(unsigned(std::min<std::size_t>(thread_count(threads), images)));
+    ThreadPool pool(unsigned(std::min<std::size_t>(thread_count(threads), images)));
     std::deque<FrameMatcher<D, Desc>> matchers;
-    for (unsigned worker = 0; worker < team.size(); ++worker) matchers.emplace_back(model, 1);
+    for (unsigned worker = 0; worker < pool.size(); ++worker) matchers.emplace_back(model, 1);
     std::mutex mutex;
     std::size_t done = 0;
     std::vector<std::vector<AppearanceSample>> parts(images);
-    team.each(images, [&](std::size_t i, unsigned worker) {
+    pool.for_each(images, [&](std::size_t i, unsigned worker) {
         TrainingImage image = source(i);
         const Shapes unseen = detail::without_objects(model.shapes, first_object[i], first_object[i + 1]);
         parts[i] = detail::appearance_samples(matchers[worker], unseen, image, options, search);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "ism/core/error.hpp"
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/model/appearance.hpp"
 
 namespace ism {
@@ -125,7 +125,7 @@ struct JudgeLessons {
     for (const AppearanceSample& s : samples)
         if (!s.box.empty())
             expect(s.box.back().bin < Appearance::cells * words, "judge of boxes: bin of a sample",
-                   join_text("below ", Appearance::cells * words), s.box.back().bin);
+                   lazy_text("below ", Appearance::cells * words), s.box.back().bin);
     std::vector<std::vector<BinValue>> weights(classes);
     std::vector<float> bias(classes);
     parallel_for(classes, threads, [&](std::size_t c) {

@@ -24,7 +24,7 @@ namespace ism {
     expect(before.weights.empty() || !word_now.empty(), "judge of boxes: words of before", "1 or more", 0);
     std::vector<float> became(words, 0);
     for (const std::uint32_t w : word_now) {
-        expect(w < words, "judge of boxes: word now", join_text("below ", words), w);
+        expect(w < words, "judge of boxes: word now", lazy_text("below ", words), w);
         ++became[w];
     }
     Appearance now;
@@ -33,7 +33,7 @@ namespace ism {
         for (const BinValue& weight : before.of_class(c)) {
             const std::size_t cell = weight.bin / word_now.size();
             expect(cell < Appearance::cells, "judge of boxes: bin",
-                   join_text("below ", Appearance::cells * word_now.size()), weight.bin);
+                   lazy_text("below ", Appearance::cells * word_now.size()), weight.bin);
             const std::uint32_t word = word_now[weight.bin % word_now.size()];
             own.push_back({static_cast<std::uint32_t>(cell * words + word), weight.value / became[word]});
         }
@@ -57,7 +57,7 @@ namespace ism {
                                                 std::size_t words, std::size_t classes,
                                                 const AppearanceOptions& options = {}, unsigned threads = 0) {
     const std::size_t known = present.classes();
-    expect(classes >= known, "judge of boxes: classes", join_text(known, " or more"), classes);
+    expect(classes >= known, "judge of boxes: classes", lazy_text(known, " or more"), classes);
     // New classes are numbered from 0; all of before is one other class.
     const auto other = static_cast<std::uint32_t>(classes - known);
     const auto renumber = [&](std::uint32_t& c) {

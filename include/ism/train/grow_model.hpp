@@ -67,13 +67,13 @@ void check_growth(const Model<D, Desc>& model, const Harvest<D, Desc>& added, co
            model.extractor.options.upsampling, added.extractor.options.upsampling);
     for (const Occurrence& o : added.seen) {
         expect(o.class_index < added.class_names.size(), "growing a model: class of a feature",
-               join_text("below ", added.class_names.size()), o.class_index);
+               lazy_text("below ", added.class_names.size()), o.class_index);
         expect(o.object < added.objects.size(), "growing a model: object of a feature",
-               join_text("below ", added.objects.size()), o.object);
+               lazy_text("below ", added.objects.size()), o.object);
     }
     for (const Occurrence& o : model.shapes.occurrences)
         expect(model.memory.empty() || o.feature < model.memory.size(), "growing a model: feature",
-               join_text("below the ", model.memory.size(), " that are kept"), o.feature);
+               lazy_text("below the ", model.memory.size(), " that are kept"), o.feature);
     for (const std::uint32_t group : model.codebook.group)
         expect(group == 0, "growing a model: its codebook", "a joint one", "one of words for each class");
 }

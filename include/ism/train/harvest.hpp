@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/feature/extract.hpp"
 #include "ism/model/occurrence.hpp"
 #include "ism/train/harvest_image.hpp"
@@ -91,7 +91,7 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
             ++objects_of[c];
         }
     for (std::size_t c = 0; c < class_names.size(); ++c)
-        expect(objects_of[c] > 0, join_text("training: objects of class ", class_names[c]), "1 or more", 0);
+        expect(objects_of[c] > 0, lazy_text("training: objects of class ", class_names[c]), "1 or more", 0);
 
     Harvest<D, Desc> all{.extractor = extractor,
                          .class_names = {class_names.begin(), class_names.end()},
@@ -123,7 +123,7 @@ template <Detector D, Descriptor Desc, TrainingSource Source>
         part = {};
     }
     for (std::size_t c = 0; c < class_names.size(); ++c)
-        expect(features_of[c] > 0, join_text("training: features on objects of class ", class_names[c]),
+        expect(features_of[c] > 0, lazy_text("training: features on objects of class ", class_names[c]),
                "1 or more", 0);
     return all;
 }

@@ -81,16 +81,16 @@ inline void check_training_image(const TrainingImage& image, std::size_t classes
     const GrayImage& gray = image.frame.gray;
     for (const LabelledObject& object : image.objects) {
         const Box& box = object.box;
-        expect(object.class_index < classes, join_text(image.name, ": class of an object"),
-               join_text("an index below ", classes), object.class_index);
+        expect(object.class_index < classes, lazy_text(image.name, ": class of an object"),
+               lazy_text("an index below ", classes), object.class_index);
         expect(std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(box.area()) && box.width > 0 &&
                    box.height > 0,
-               join_text(image.name, ": box of an object"), "finite numbers, positive sides",
-               join_text(box.x, ", ", box.y, ", ", box.width, ", ", box.height));
+               lazy_text(image.name, ": box of an object"), "finite numbers, positive sides",
+               lazy_text(box.x, ", ", box.y, ", ", box.width, ", ", box.height));
         if (object.mask.empty()) continue;
         expect(object.mask.width() == gray.width() && object.mask.height() == gray.height(),
-               join_text(image.name, ": mask size"), size_text(gray), size_text(object.mask));
-        expect(mask_area(object.mask) > 1, join_text(image.name, ": mask"), "at least 2 figure pixels",
+               lazy_text(image.name, ": mask size"), size_text(gray), size_text(object.mask));
+        expect(mask_area(object.mask) > 1, lazy_text(image.name, ": mask"), "at least 2 figure pixels",
                mask_area(object.mask));
     }
 }

@@ -18,7 +18,7 @@ namespace ism {
 [[nodiscard]] inline std::vector<double> information_gain(std::span<const double> counts,
                                                           std::size_t classes) {
     expect(classes > 0 && counts.size() % classes == 0, "information gain: number of counts",
-           join_text("a multiple of ", classes, " classes"), counts.size());
+           lazy_text("a multiple of ", classes, " classes"), counts.size());
     const std::size_t words = counts.size() / classes;
     double total = 0;
     std::vector<double> of_word(words, 0), of_class(classes, 0);

@@ -70,7 +70,7 @@ template <Detector D, Descriptor Desc>
         const auto gain = word_worth(model.shapes, WordMeasure::information_gain);
         const double best = *std::max_element(gain.begin(), gain.end());
         expect(best >= options.min_information_gain, "training: least information gain",
-               join_text("at most that of the best word, ", best), options.min_information_gain);
+               lazy_text("at most that of the best word, ", best), options.min_information_gain);
         model = keep_words(model, words_worth(gain, options.min_information_gain));
     }
     if (options.max_words > 0)

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/model/occurrence.hpp"
 #include "ism/vote/axes.hpp"
 #include "ism/vote/kernel.hpp"

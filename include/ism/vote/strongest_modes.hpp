@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "ism/core/parallel.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/vote/mean_shift.hpp"
 
 namespace ism {
@@ -64,9 +64,9 @@ template <Kernel K, std::size_t Dimension>
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return weight[a] > weight[b]; });
 
-    Team team(
+    ThreadPool pool(
         unsigned(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(1, labels.size()))));
-    std::vector<MeanShiftMemory<Dimension>> memory(team.size());
+    std::vector<MeanShiftMemory<Dimension>> memory(pool.size());
     std::vector<Mode<Dimension>> strongest;
     std::size_t at_once = 16;  // not the number of threads, on which the result must not depend
     for (std::size_t first = 0; first < labels.size() && most > 0; first += at_once, at_once *= 2) {
@@ -77,7 +77,7 @@ template <Kernel K, std::size_t Dimension>
         while (count < std::min(at_once, labels.size() - first) && weight[order[first + count]] >= least)
             ++count;
         std::vector<std::vector<Mode<Dimension>>> found(count);
-        team.each(count, [&](std::size_t i, unsigned worker) {
+        pool.for_each(count, [&](std::size_t i, unsigned worker) {
             found[i] = find_modes<K>(labels[order[first + i]], bandwidth, options, memory[worker]);
         });
         for (const auto& modes : found) strongest.insert(strongest.end(), modes.begin(), modes.end());

@@ -1,11 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <cstdint>
 #include <limits>
 #include <locale>
+#include <string>
+#include <string_view>
 
 #include "support/catch.hpp"
+#include "support/files.hpp"
 
 #include "ism/core/error.hpp"
+#include "ism/core/image.hpp"
 #include "ism/core/number_text.hpp"
 
 namespace {
@@ -41,6 +46,28 @@ TEST_CASE("numbers become the shortest text of so many digits") {
     CHECK(ism::fixed_text(std::numeric_limits<double>::max(), 3).size() == 313);
     CHECK(ism::hex_text(0xAB, 4) == "00ab");
     CHECK(ism::hex_text(0x12345, 2) == "45");
+}
+
+TEST_CASE("parts of a text are strings, numbers and what appends itself") {
+    CHECK(ism::join_text("a", std::string("b"), std::string_view("c"), 'd', 1, -2L, 3u, std::uint8_t(65),
+                         true) == "abcd1-23651");
+    CHECK(ism::join_text(0.1f, " ", 1.0 / 3, " ", 1e20, " ", std::numeric_limits<double>::infinity()) ==
+          "0.1 0.333333 1e+20 inf");
+    CHECK(ism::join_text(ism::lazy_text("a", 1), ism::SizeText{3, 4}) == "a13x4");
+}
+
+TEST_CASE("the message of an expectation is made only where it fails") {
+    struct Counted {
+        int& count;
+        void append_to(std::string& text) const { ++count, text += "text"; }
+    };
+    int count = 0;
+    ism::expect(true, Counted{count}, ism::lazy_text("a", Counted{count}), 1);
+    CHECK(count == 0);
+    CHECK(ism::test::error_message([&] {
+              ism::expect(false, Counted{count}, ism::lazy_text("a", Counted{count}), 1);
+          }) == "text: expected atext, got 1");
+    CHECK(count == 2);
 }
 
 TEST_CASE("numbers are written the same in every locale") {
