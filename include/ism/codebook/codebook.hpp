@@ -4,26 +4,65 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ism/feature/feature.hpp"
 
 namespace ism {
 
-/// @brief Visual words: the means of clusters of descriptors. The distance of a descriptor to a word is that
-/// of the clustering: the mean squared distance to the descriptors the word stands for, |d|² + mean_sq_length
-/// − 2 d·mean. In a joint codebook all words belong to group 0; in a codebook of one part a class, a word's
-/// group is its class.
-/// @tparam Scalar  float, or bytes for descriptors of bytes: see in_bytes()
-template <std::size_t Dimension, DescriptorScalar Scalar = float>
-struct Codebook {
-    Descriptors<Scalar, Dimension> words;  ///< one row a word, in the units of the descriptor
-    std::vector<float> mean_sq_length;  ///< of each word: mean of |d|² over the descriptors d it stands for
-    std::vector<std::uint32_t> group;   ///< of each word
-    double max_sq_distance = 0;         ///< a descriptor matches every word no further away
-    std::vector<std::uint32_t> sizes = {};  ///< descriptors each word stands for
+/// @brief A visual word: a cluster of descriptors.
+struct Word {
+    std::span<const float> mean;  ///< in the units of the descriptor
+    float mean_sq_length = 0;     ///< mean of |d|² over the descriptors d of the cluster
+    std::uint32_t size = 1;       ///< number of these descriptors
+    std::uint32_t group = 0;      ///< 0 in a joint codebook, the class in a codebook of words a class
+};
 
-    [[nodiscard]] std::size_t size() const { return words.size(); }
+/// @brief Visual words. The distance of a descriptor d to a word is that of the clustering: the mean squared
+/// distance to the descriptors the word stands for, |d|² + mean_sq_length − 2 d·mean.
+class Codebook {
+public:
+    Codebook() = default;
+    /// @param dimension        numbers of a descriptor
+    /// @param max_sq_distance  a descriptor matches every word no further away
+    Codebook(std::size_t dimension, double max_sq_distance)
+        : max_sq_distance_(max_sq_distance), means_(dimension) {}
+
+    [[nodiscard]] std::size_t size() const { return sizes_.size(); }
+    [[nodiscard]] bool empty() const { return sizes_.empty(); }
+    [[nodiscard]] std::size_t dimension() const { return means_.dimension(); }
+    [[nodiscard]] double max_sq_distance() const { return max_sq_distance_; }
+
+    [[nodiscard]] Word operator[](std::size_t word) const {
+        return {means_.row(word), mean_sq_lengths_[word], sizes_[word], groups_[word]};
+    }
+    /// @throws Error for a mean of another dimension.
+    void push_back(const Word& word) {
+        means_.push_back(word.mean);
+        mean_sq_lengths_.push_back(word.mean_sq_length);
+        sizes_.push_back(word.size);
+        groups_.push_back(word.group);
+    }
+
+    /// @brief The means of all words, and what else is known of each: a list as long as there are words.
+    [[nodiscard]] const Descriptors<float>& means() const { return means_; }
+    [[nodiscard]] std::span<const float> mean_sq_lengths() const { return mean_sq_lengths_; }
+    [[nodiscard]] std::span<const std::uint32_t> sizes() const { return sizes_; }
+    [[nodiscard]] std::span<const std::uint32_t> groups() const { return groups_; }
+
+    /// @brief A codebook of some of the words, in the order given.
+    [[nodiscard]] Codebook select(std::span<const std::uint32_t> words) const {
+        Codebook selected(dimension(), max_sq_distance_);
+        for (const std::uint32_t word : words) selected.push_back((*this)[word]);
+        return selected;
+    }
+
+private:
+    double max_sq_distance_ = 0;
+    Descriptors<float> means_;
+    std::vector<float> mean_sq_lengths_;
+    std::vector<std::uint32_t> sizes_, groups_;
 };
 
 /// @brief A word that a feature looks like.
@@ -33,12 +72,6 @@ struct Match {
     float weight = 0;      ///< p(word | feature) = 1 / number of words of the group that the feature matches
     bool nearest = false;  ///< no other word of the group is nearer
     [[nodiscard]] bool operator==(const Match&) const = default;
-};
-
-/// @brief Which words of a feature cast votes.
-enum class MatchMode {
-    all,      ///< every word within the threshold (soft matching)
-    nearest,  ///< only the nearest of each group, if within the threshold
 };
 
 }  // namespace ism

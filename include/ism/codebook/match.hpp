@@ -18,35 +18,28 @@
 
 namespace ism {
 
-/// @brief How match() works.
-struct MatchOptions {
-    MatchMode mode = MatchMode::all;                 ///< `nearest` gives what nearest_only() leaves of all
-    std::size_t max_matches = std::size_t(1) << 26;  ///< more, 1 GiB of them, are refused
-};
+/// @brief More matches, 1 GiB of them, are refused.
+inline constexpr std::size_t max_matches = std::size_t(1) << 26;
 
 /// @brief The words that each descriptor looks like, by feature and within a feature by word. Exact: a fast
 /// filter only tells which words may lie within the threshold, and their distances are then taken in double.
 /// Where several words are equally near the first is the nearest. A descriptor with NaN or infinite numbers
 /// matches nothing. Beside the matches each thread needs little, and 3 kB a word where everything matches.
-/// @throws Error where there are more than `max_matches`.
-template <std::size_t Dimension, DescriptorScalar Scalar, DescriptorScalar WordScalar>
-[[nodiscard]] std::vector<Match> match(const WordIndex<Dimension, WordScalar>& index,
-                                       const Descriptors<Scalar, Dimension>& descriptors,
-                                       unsigned threads = 0, const MatchOptions& options = {}) {
+/// @throws Error where the descriptors are of another dimension, or there are more than `most` matches.
+[[nodiscard]] inline std::vector<Match> match(const WordIndex& index, const Descriptors<float>& descriptors,
+                                              ThreadPool& pool, std::size_t most = max_matches) {
+    if (descriptors.empty()) return {};
+    expect(descriptors.dimension() == index.dimension(), "matching: dimension of descriptors",
+           index.dimension(), descriptors.dimension());
     const std::size_t blocks = (descriptors.size() + detail::filter_block - 1) / detail::filter_block;
     std::vector<std::vector<Match>> found(blocks);
-    ThreadPool pool(unsigned(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(1, blocks))));
-    using Matcher = detail::BlockMatcher<Dimension, WordScalar>;
-    std::vector<Matcher> matchers(pool.size(), Matcher(index));
+    std::vector<detail::BlockMatcher> matchers(pool.size(), detail::BlockMatcher(index));
     std::atomic<std::size_t> total = 0;
     pool.for_each(blocks, [&](std::size_t block, unsigned worker) {
-        Matcher& matcher = matchers[worker];
-        matcher.load(descriptors, block * detail::filter_block);
-        matcher.find(options.mode);
-        found[block] = matcher.matches(options.mode);
+        found[block] = matchers[worker].match(descriptors, block * detail::filter_block);
         const std::size_t so_far = total += found[block].size();
-        expect(so_far <= options.max_matches, "matching: number of matches",
-               lazy_text("at most ", options.max_matches), "more: lower the threshold, or ask in parts");
+        expect(so_far <= most, "matching: number of matches", lazy_text("at most ", most),
+               "more: lower the threshold, or ask in parts");
     });
     std::vector<Match> matches;
     matches.reserve(total);
@@ -58,11 +51,11 @@ template <std::size_t Dimension, DescriptorScalar Scalar, DescriptorScalar WordS
 }
 
 /// @brief The words of a codebook that each descriptor looks like: makes an index for this once.
-template <std::size_t Dimension, DescriptorScalar Scalar, DescriptorScalar WordScalar>
-[[nodiscard]] std::vector<Match> match(const Codebook<Dimension, WordScalar>& codebook,
-                                       const Descriptors<Scalar, Dimension>& descriptors,
-                                       unsigned threads = 0, const MatchOptions& options = {}) {
-    return match(WordIndex<Dimension, WordScalar>(codebook), descriptors, threads, options);
+/// @param threads  0 = all hardware threads
+[[nodiscard]] inline std::vector<Match> match(const Codebook& codebook, const Descriptors<float>& descriptors,
+                                              unsigned threads = 0) {
+    ThreadPool pool(threads);
+    return match(WordIndex(codebook), descriptors, pool);
 }
 
 /// @brief Of the matches of match() the nearest word of each group, with the weight 1.

@@ -21,48 +21,21 @@
 namespace ism::detail {
 
 /// Matches one block of descriptors after another, in memory of its own.
-template <std::size_t Dimension, DescriptorScalar WordScalar>
 class BlockMatcher {
 public:
-    explicit BlockMatcher(const WordIndex<Dimension, WordScalar>& index)
+    explicit BlockMatcher(const WordIndex& index)
         : index_(&index),
-          rows_(filter_block * Dimension),
+          rows_(filter_block * index.dimension()),
           sq_lengths_(filter_block),
-          of_group_(index.groups()) {}
+          of_group_(index.group_count()) {}
 
-    /// Reads the descriptors from `first` on. Rows that are missing or not finite reach nothing; they hold
-    /// what another row holds, so that they do not widen the range.
-    template <DescriptorScalar Scalar>
-    void load(const Descriptors<Scalar, Dimension>& descriptors, std::size_t first) {
-        first_ = first;
-        count_ = std::min(filter_block, descriptors.size() - first);
-        const float* good = nullptr;
-        for (std::size_t i = 0; i < filter_block; ++i) {
-            float* row = rows_.data() + i * Dimension;
-            sq_lengths_[i] = std::numeric_limits<double>::infinity();
-            if (i < count_) {
-                const auto from = descriptors.row(first + i);
-                std::copy(from.begin(), from.end(), row);
-                sq_lengths_[i] = index_->sq_length(std::span<const float, Dimension>(row, Dimension));
-            }
-            if (sq_lengths_[i] < std::numeric_limits<double>::infinity())
-                good = row;
-            else if (good != nullptr)
-                std::copy_n(good, Dimension, row);
-            else
-                std::fill_n(row, Dimension, 0.0f);
-        }
-    }
-
-    /// Finds all words within the threshold, or at least the nearest.
-    void find(MatchMode mode) {
+    /// The matches of the descriptors from `first` on, by descriptor, then by word.
+    [[nodiscard]] std::vector<Match> match(const Descriptors<float>& descriptors, std::size_t first) {
+        load(descriptors, first);
         hits_.clear();
-        const bool narrow = mode == MatchMode::nearest && index_->groups() == 1;
-        std::visit([&](const auto& filter) { search(filter, narrow); }, index_->filter());
+        std::visit([&](const auto& filter) { search(filter); }, index_->filter());
+        return matches();
     }
-
-    /// What find() found, by descriptor, then by word.
-    [[nodiscard]] std::vector<Match> matches(MatchMode mode);
 
 private:
     struct Hit {
@@ -74,14 +47,36 @@ private:
         double sq_distance = std::numeric_limits<double>::infinity();
     };
 
-    /// `narrow`: only what is nearer than all before.
+    /// Rows that are missing or not finite reach nothing; they hold what another row holds, so that they do
+    /// not widen the range.
+    void load(const Descriptors<float>& descriptors, std::size_t first) {
+        const std::size_t dimension = index_->dimension();
+        first_ = first;
+        count_ = std::min(filter_block, descriptors.size() - first);
+        const float* good = nullptr;
+        for (std::size_t i = 0; i < filter_block; ++i) {
+            float* row = rows_.data() + i * dimension;
+            sq_lengths_[i] = std::numeric_limits<double>::infinity();
+            if (i < count_) {
+                const auto from = descriptors.row(first + i);
+                std::copy(from.begin(), from.end(), row);
+                sq_lengths_[i] = index_->sq_length(row);
+            }
+            if (sq_lengths_[i] < std::numeric_limits<double>::infinity())
+                good = row;
+            else if (good != nullptr)
+                std::copy_n(good, dimension, row);
+            else
+                std::fill_n(row, dimension, 0.0f);
+        }
+    }
+
+    /// Finds all words within the threshold.
     template <CandidateFilter Filter>
-    void search(const Filter& filter, bool narrow) {
+    void search(const Filter& filter) {
         auto& block = std::get<typename Filter::Block>(blocks_);
         filter.prepare(rows_, sq_lengths_, index_->max_sq_distance(), block);
         std::array<std::uint64_t, filter_block> masks{};
-        std::array<double, filter_block> reach{};
-        reach.fill(index_->max_sq_distance());
         const std::span used(masks.data(), (count_ + filter_tile - 1) / filter_tile * filter_tile);
         for (std::size_t first = 0; first < index_->size(); first += filter_group) {
             filter.masks(block, first / filter_group, used);
@@ -89,18 +84,43 @@ private:
             for (std::size_t i = 0; i < count_; ++i)
                 for (std::uint64_t mask = masks[i] & ~std::uint64_t(0) >> none; mask != 0; mask &= mask - 1) {
                     const auto word = std::uint32_t(first) + std::uint32_t(std::countr_zero(mask));
-                    const std::span<const float, Dimension> row(rows_.data() + i * Dimension, Dimension);
+                    const float* row = rows_.data() + i * index_->dimension();
                     const double distance = index_->sq_distance(row, sq_lengths_[i], word);
-                    if (!(distance <= reach[i])) continue;
-                    hits_.push_back({distance, std::uint32_t(i), word});
-                    if (!narrow) continue;
-                    reach[i] = std::nextafter(distance, -std::numeric_limits<double>::infinity());
-                    filter.limit(block, i, sq_lengths_[i], distance);
+                    if (distance <= index_->max_sq_distance())
+                        hits_.push_back({distance, std::uint32_t(i), word});
                 }
         }
     }
 
-    const WordIndex<Dimension, WordScalar>* index_;
+    [[nodiscard]] std::vector<Match> matches() {
+        std::array<std::size_t, filter_block + 1> begin{};
+        for (const Hit& hit : hits_) ++begin[hit.query + 1];
+        for (std::size_t i = 0; i < filter_block; ++i) begin[i + 1] += begin[i];
+        sorted_.resize(hits_.size());
+        auto next = begin;
+        for (const Hit& hit : hits_) sorted_[next[hit.query]++] = hit;
+
+        std::vector<Match> matches;
+        matches.reserve(hits_.size());
+        for (std::size_t i = 0; i < count_; ++i) {
+            const auto own = std::span(sorted_).subspan(begin[i], begin[i + 1] - begin[i]);
+            for (const Hit& hit : own) {
+                OfGroup& group = of_group_[index_->group(hit.word)];
+                ++group.count;
+                if (hit.sq_distance < group.sq_distance)
+                    group.sq_distance = hit.sq_distance, group.nearest = hit.word;
+            }
+            for (const Hit& hit : own) {
+                const OfGroup& group = of_group_[index_->group(hit.word)];
+                matches.push_back({std::uint32_t(first_ + i), hit.word, 1.0f / float(group.count),
+                                   group.nearest == hit.word});
+            }
+            for (const Hit& hit : own) of_group_[index_->group(hit.word)] = {};
+        }
+        return matches;
+    }
+
+    const WordIndex* index_;
     std::size_t first_ = 0, count_ = 0;
     std::vector<float> rows_;
     std::vector<double> sq_lengths_;
@@ -108,37 +128,5 @@ private:
     std::vector<Hit> hits_, sorted_;  // by 64 words and descriptor; by descriptor
     std::vector<OfGroup> of_group_;   // empty between descriptors
 };
-
-template <std::size_t Dimension, DescriptorScalar WordScalar>
-std::vector<Match> BlockMatcher<Dimension, WordScalar>::matches(MatchMode mode) {
-    std::array<std::size_t, filter_block + 1> begin{};
-    for (const Hit& hit : hits_) ++begin[hit.query + 1];
-    for (std::size_t i = 0; i < filter_block; ++i) begin[i + 1] += begin[i];
-    sorted_.resize(hits_.size());
-    auto next = begin;
-    for (const Hit& hit : hits_) sorted_[next[hit.query]++] = hit;
-
-    std::vector<Match> matches;
-    matches.reserve(mode == MatchMode::all ? hits_.size() : count_);
-    for (std::size_t i = 0; i < count_; ++i) {
-        const auto own = std::span(sorted_).subspan(begin[i], begin[i + 1] - begin[i]);
-        for (const Hit& hit : own) {
-            OfGroup& group = of_group_[index_->group(hit.word)];
-            ++group.count;
-            if (hit.sq_distance < group.sq_distance)
-                group.sq_distance = hit.sq_distance, group.nearest = hit.word;
-        }
-        for (const Hit& hit : own) {
-            const OfGroup& group = of_group_[index_->group(hit.word)];
-            const bool nearest = group.nearest == hit.word;
-            if (mode == MatchMode::all)
-                matches.push_back({std::uint32_t(first_ + i), hit.word, 1.0f / float(group.count), nearest});
-            else if (nearest)
-                matches.push_back({std::uint32_t(first_ + i), hit.word, 1.0f, true});
-        }
-        for (const Hit& hit : own) of_group_[index_->group(hit.word)] = {};
-    }
-    return matches;
-}
 
 }  // namespace ism::detail

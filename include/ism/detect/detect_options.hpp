@@ -4,40 +4,44 @@
 
 #include <cstddef>
 
-#include "ism/codebook/codebook.hpp"
 #include "ism/core/error.hpp"
-#include "ism/detect/segment.hpp"
-#include "ism/vote/bandwidth.hpp"
 #include "ism/vote/mean_shift.hpp"
-#include "ism/vote/vote_space.hpp"
 
 namespace ism {
 
-/// @brief How objects are searched in a picture.
-template <AnyVoteSpace Space>
-struct DetectOptions {
-    Bandwidth<Space::dimension> bandwidth = default_bandwidth<Space>();
-    double keep = 0.05;  ///< T_ratio: weaker hypotheses than this part of the strongest are dropped
-    std::size_t max_candidates = 200;  ///< so many of the strongest hypotheses does the judge of boxes see
-    std::size_t max_hypotheses = 40;   ///< so many of these, the best after it, are cut out and verified
-    double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
-    double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object
-    MatchMode matching = MatchMode::nearest;  ///< of votes; training and the judge of boxes match softly
-    float min_vote_weight = 0.0005f;          ///< lighter votes are dropped
-    MeanShiftOptions mean_shift = {};
-    SegmentOptions segmentation = {};
-    unsigned threads = 0;  ///< 0 = all the machine has
+/// @brief Which words of a feature cast votes.
+enum class MatchMode {
+    all,      ///< every word within the threshold (soft matching)
+    nearest,  ///< only the nearest of each group, if within the threshold
 };
 
-/// @brief Does nothing where `options` can be used.
-/// @throws Error for an option out of range.
-template <AnyVoteSpace Space>
-void check(const DetectOptions<Space>& options) {
-    expect(options.keep >= 0 && options.keep <= 1, "detection: part of the strongest score to keep (T_ratio)",
-           "0 ... 1", options.keep);
-    check(options.bandwidth);
-    expect(options.min_size_px >= 0 && options.max_size_px >= 0, "detection: least and largest object size",
-           "0 px or more", lazy_text(options.min_size_px, ", ", options.max_size_px));
+/// @brief How objects are searched for in an image, whatever the vote space.
+struct DetectOptions {
+    double min_relative_score = 0.05;  ///< T_ratio: weaker than this part of the strongest is dropped
+    std::size_t max_candidates = 200;  ///< at most so many of the strongest hypotheses are rescored
+    std::size_t max_hypotheses = 40;   ///< the best of these after rescoring are segmented and verified
+    double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
+    double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object
+    MatchMode matching = MatchMode::nearest;  ///< of votes; training and rescorers match softly
+    float min_vote_weight = 0.0005f;          ///< lighter votes are dropped
+    MeanShiftOptions mean_shift = {};
+};
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const DetectOptions& options) {
+    const auto in_range = [](double value, const char* name) {
+        expect(value >= 0 && value <= 1e9, lazy_text("DetectOptions::", name), "0 ... 1e9 px", value);
+    };
+    expect(options.min_relative_score >= 0 && options.min_relative_score <= 1,
+           "DetectOptions::min_relative_score (T_ratio)", "0 ... 1", options.min_relative_score);
+    in_range(options.min_size_px, "min_size_px");
+    in_range(options.max_size_px, "max_size_px");
+    expect(options.max_size_px == 0 || options.max_size_px >= options.min_size_px,
+           "DetectOptions::max_size_px", "0 or at least min_size_px", options.max_size_px);
+    expect(options.min_vote_weight >= 0 && options.min_vote_weight <= 1, "DetectOptions::min_vote_weight",
+           "0 ... 1", options.min_vote_weight);
+    check(options.mean_shift);
 }
 
 }  // namespace ism

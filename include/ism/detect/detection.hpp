@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,16 +23,16 @@ struct Support {
     float weight = 0;              ///< what it adds to the score
 };
 
-/// @brief Which pixels belong to an object. All images are of one size and cover the part of the picture
+/// @brief Which pixels belong to an object. All images are of one size and cover the part of the image
 /// whose first pixel is (x, y).
 struct Segmentation {
-    int x = 0, y = 0;  ///< where the part begins, pixels of the picture
+    int x = 0, y = 0;  ///< where the part begins, pixels of the image
     GrayImage figure;  ///< p(figure) carried by the support, ≥ 0; 0 where no patch reaches
     GrayImage ground;  ///< p(ground) carried by the support, ≥ 0
     Mask mask;         ///< 1 where figure outweighs ground
 };
 
-/// @brief The whole-picture mask of a segmentation; what reaches outside the picture is cut off.
+/// @brief The mask of a segmentation at image resolution; what reaches outside the image is cut off.
 [[nodiscard]] inline Mask whole_mask(const Segmentation& part, int width, int height) {
     Mask whole(width, height);
     for (int y = 0; y < part.mask.height(); ++y)
@@ -41,23 +42,36 @@ struct Segmentation {
     return whole;
 }
 
-/// @brief An object found in a picture.
+/// @brief An object found in an image.
 struct Detection {
-    std::size_t class_index = 0;       ///< into the model's class names
-    double score = 0;                  ///< larger is surer; comparable between pictures and classes
+    std::uint32_t class_index = 0;  ///< into the model's class names
+    double score = 0;               ///< larger is more confident; within an image
+    double probability = std::numeric_limits<double>::quiet_NaN();  ///< 0 … 1, comparable between images and
+                                                                    ///< classes; NaN = model not calibrated
     Point2 centre;                     ///< of the object, pixels
-    Box box;                           ///< pixels; may reach outside the picture
+    Box box;                           ///< pixels; may reach outside the image
     double scale = 1;                  ///< s: the object's size relative to the reference size
+    double angle = 0;                  ///< turned by so much, radians from x towards y; 0 where upright
     double depth_m = no_depth;         ///< along the optical axis, metres; NaN = not known
     std::optional<Point3> position_m;  ///< in the camera frame; where camera and depth are known
     Segmentation segmentation;         ///< figure and ground maps and mask
     std::vector<Support> support;      ///< why it was found, strongest first
 };
 
-/// @brief All that was found in a picture, with the features it was found by.
+/// @brief How much each station of the way had to do, and how long it took.
+struct DetectionStats {
+    std::size_t features = 0, matches = 0, votes = 0;
+    std::size_t hypotheses = 0;  ///< places where votes agree
+    std::size_t candidates = 0;  ///< what rescoring made of them
+    std::size_t segmented = 0;   ///< the best of these, which were cut out and verified
+    double extract_ms = 0, match_ms = 0, vote_ms = 0, rescore_ms = 0, segment_ms = 0, verify_ms = 0;
+};
+
+/// @brief All that was found in an image, with the features it was found by.
 struct Detections {
     std::vector<Detection> objects;  ///< strongest first
     std::vector<Feature> features;   ///< what Support::feature points into
+    DetectionStats stats;
 };
 
 }  // namespace ism

@@ -2,47 +2,80 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/codebook/match.hpp"
 #include "ism/core/frame.hpp"
+#include "ism/core/stopwatch.hpp"
+#include "ism/core/thread_pool.hpp"
+#include "ism/detect/scene.hpp"
+#include "ism/feature/any_extractor.hpp"
 #include "ism/feature/depth.hpp"
-#include "ism/feature/extract.hpp"
 #include "ism/model/model.hpp"
 
 namespace ism {
 
-/// @brief The features of a picture and the words they look like: all that votes are cast from.
-struct MatchedFeatures {
-    std::vector<Feature> features;
-    std::vector<Match> matches;
-};
-
-/// @brief Finds the features of one picture after another and matches them to the words of a model, with the
-/// same threads and memory. One picture at a time.
-template <Detector D, Descriptor Desc>
+/// @brief Finds the features of one frame after another and matches them to the words of a model, with the
+/// same threads and memory. One frame at a time.
 class FrameMatcher {
 public:
-    /// @param threads  that work on a picture (0 = all the machine has)
-    explicit FrameMatcher(const Model<D, Desc>& model, unsigned threads = 0)
-        : words_(model.codebook), extractor_(model.extractor, threads), threads_(threads) {}
+    /// @param model       has to stay as long as this and its scenes
+    /// @param extractors  one for each channel of the model
+    /// @param pool        works on a frame; has to stay as long as this and its scenes
+    /// @throws Error where an extractor is not that of its channel.
+    FrameMatcher(const Model& model, std::span<const AnyExtractor> extractors, ThreadPool& pool)
+        : model_(model), pool_(pool) {
+        expect(extractors.size() == model.channels.size(), "detection: extractors, one a channel",
+               model.channels.size(), extractors.size());
+        std::size_t words = 0;
+        for (std::size_t c = 0; c < extractors.size(); ++c) {
+            const FeatureSettings &wanted = model.channels[c].features, &given = extractors[c].settings();
+            expect(given.detector == wanted.detector && given.descriptor == wanted.descriptor &&
+                       given.dimension == wanted.dimension,
+                   "detection: features of the model", lazy_text(wanted.detector, ", ", wanted.descriptor),
+                   lazy_text(given.detector, ", ", given.descriptor));
+            channels_.push_back({extractors[c].start(pool), WordIndex(model.channels[c].codebook),
+                                 static_cast<std::uint32_t>(words)});
+            words += model.channels[c].codebook.size();
+        }
+    }
 
-    /// @brief The features of a picture, with depth where it has depth, and their matches.
-    /// @throws Error for a frame that is none (see check(Frame)).
-    [[nodiscard]] MatchedFeatures match(const Frame& frame) {
+    /// @brief A frame with its features, with depth where it has depth, and their matches.
+    /// @param frame  has to stay as long as the scene
+    /// @throws Error for a frame that check(Frame) refuses.
+    [[nodiscard]] Scene scene(const Frame& frame) {
         check(frame);
-        const FeatureSet<Desc>& found = extractor_.extract(frame.gray.view());
-        MatchedFeatures result{.features = found.features,
-                               .matches = ism::match(words_, found.descriptors, threads_)};
-        if (!frame.depth_m.empty()) result.features = with_depth(std::move(result.features), frame.depth_m);
-        return result;
+        Scene scene{.frame = frame, .model = model_, .pool = pool_, .features = {}, .matches = {}};
+        for (Channel& channel : channels_) {
+            Stopwatch watch;
+            const FeatureSet<float>& found = channel.extract(frame);
+            scene.extract_ms += watch.lap_ms();
+            const auto first = static_cast<std::uint32_t>(scene.features.size());
+            scene.features.insert(scene.features.end(), found.features.begin(), found.features.end());
+            for (Match match : match(channel.words, found.descriptors, pool_)) {
+                match.feature += first, match.word += channel.first_word;
+                scene.matches.push_back(match);
+            }
+            scene.match_ms += watch.lap_ms();
+        }
+        if (!frame.depth_m.empty()) scene.features = with_depth(std::move(scene.features), frame.depth_m);
+        return scene;
     }
 
 private:
-    WordIndex<Desc::dimension, typename Desc::Scalar> words_;
-    FeatureExtractor<D, Desc> extractor_;
-    unsigned threads_;
+    struct Channel {
+        ExtractFeatures extract;
+        WordIndex words;
+        std::uint32_t first_word;
+    };
+
+    const Model& model_;
+    ThreadPool& pool_;
+    std::vector<Channel> channels_;
 };
 
 }  // namespace ism

@@ -11,19 +11,17 @@
 #include <vector>
 
 #include "ism/codebook/match.hpp"
-#include "ism/core/frame.hpp"
-#include "ism/core/thread_pool.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
+#include "ism/detect/scene.hpp"
 #include "ism/vote/cast.hpp"
 #include "ism/vote/kernel.hpp"
+#include "ism/vote/placement.hpp"
 #include "ism/vote/strongest_modes.hpp"
 
 namespace ism {
 
-namespace detail {
-
-/// The value below which half of the weight lies; NaN without weight.
+/// @brief The value below which half of the weight lies; NaN without weight.
 [[nodiscard]] inline double weighted_median(std::vector<std::pair<double, double>> value_and_weight) {
     std::stable_sort(value_and_weight.begin(), value_and_weight.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -34,108 +32,109 @@ namespace detail {
     return no_depth;
 }
 
-/// Tells from the votes of a window what the object would be: class, centre, scale, box, depth, position,
-/// support.
-template <std::size_t Dimension>
-[[nodiscard]] Detection describe_hypothesis(double score,
-                                            std::vector<std::pair<const Vote<Dimension>*, double>> window,
-                                            std::span<const Feature> features, const Shapes& shapes,
-                                            const Frame& frame) {
+/// @brief Tells from the votes of a window what the object would be: the class of the most weight, and by its
+/// votes centre, scale, angle, box, depth and position. They stay as the detection's support.
+/// @param window  Support::weight is the vote's weight times the kernel's
+[[nodiscard]] inline Detection describe_hypothesis(double score, std::vector<Support> window,
+                                                   const Scene& scene) {
+    const ShapeModel& shapes = scene.model.shapes;
     std::vector<double> of_class(shapes.class_names.size(), 0);
-    for (const auto& [vote, kernel] : window)
-        of_class[shapes.occurrences[vote->occurrence].class_index] += vote->weight * kernel;
+    for (const Support& s : window) of_class[shapes.occurrence(s.occurrence).class_index] += s.weight;
     Detection result;
     result.class_index =
-        static_cast<std::size_t>(std::max_element(of_class.begin(), of_class.end()) - of_class.begin());
+        static_cast<std::uint32_t>(std::max_element(of_class.begin(), of_class.end()) - of_class.begin());
     result.score = score;
-    std::erase_if(window, [&](const auto& entry) {
-        return shapes.occurrences[entry.first->occurrence].class_index != result.class_index;
+    std::erase_if(window, [&](const Support& s) {
+        return shapes.occurrence(s.occurrence).class_index != result.class_index;
     });
 
-    double total = 0, x = 0, y = 0, scale = 0, width = 0, height = 0;
+    double total = 0, x = 0, y = 0, scale = 0, width = 0, height = 0, cosine = 0, sine = 0;
     std::vector<std::pair<double, double>> depths;
-    for (const auto& [vote, kernel] : window) {
-        const double weight = vote->weight * kernel;
-        const Feature& f = features[vote->feature];
-        const Occurrence& o = shapes.occurrences[vote->occurrence];
+    for (const Support& s : window) {
+        const Feature& f = scene.features[s.feature];
+        const Occurrence& o = shapes.occurrence(s.occurrence);
         const TrainingObject& object = shapes.objects[o.object];
-        total += weight;
-        x += weight * X::vote(f, o);
-        y += weight * Y::vote(f, o);
-        scale += weight * vote->scale;
-        width += weight * vote->scale * object.width;
-        height += weight * vote->scale * object.height;
+        const Placement placed = placement(f, o);
+        const Box box = placed_box(placed, object.width, object.height);
+        total += s.weight;
+        x += s.weight * placed.centre.x;
+        y += s.weight * placed.centre.y;
+        scale += s.weight * placed.scale;
+        cosine += s.weight * std::cos(placed.angle);
+        sine += s.weight * std::sin(placed.angle);
+        width += s.weight * box.width;
+        height += s.weight * box.height;
         if (is_depth(f.depth_m))
-            depths.emplace_back(f.depth_m - (std::isfinite(o.depth_m) ? o.depth_m : 0), weight);
-        result.support.push_back({vote->feature, vote->word, vote->occurrence, static_cast<float>(weight)});
+            depths.emplace_back(f.depth_m - (std::isfinite(o.depth_m) ? o.depth_m : 0), s.weight);
     }
     result.centre = {x / total, y / total};
     result.scale = scale / total;
+    result.angle = std::atan2(sine, cosine);
     result.box = box_around(result.centre, width / total, height / total);
     result.depth_m = weighted_median(std::move(depths));
-    if (frame.camera && is_depth(result.depth_m))
-        result.position_m = back_project(*frame.camera, result.centre, result.depth_m);
-    std::stable_sort(result.support.begin(), result.support.end(),
+    if (scene.frame.camera && is_depth(result.depth_m))
+        result.position_m = back_project(*scene.frame.camera, result.centre, result.depth_m);
+    std::stable_sort(window.begin(), window.end(),
                      [](const Support& a, const Support& b) { return a.weight > b.weight; });
+    result.support = std::move(window);
     return result;
 }
 
-}  // namespace detail
-
 /// @brief The places where votes agree, strongest first over all labels, at most
 /// DetectOptions::max_candidates, each told as a detection without segmentation.
-/// @param votes  as cast_votes gives them: by rising label
-template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
-[[nodiscard]] std::vector<Detection> find_hypotheses(std::span<const Vote<Space::dimension>> votes,
-                                                     std::span<const Feature> features, const Shapes& shapes,
-                                                     const Frame& frame,
-                                                     const DetectOptions<Space>& options = {}) {
-    constexpr std::size_t dimension = Space::dimension;
+/// @param votes  as cast_votes() gives them: by rising label
+template <Kernel K, std::size_t Dimension>
+[[nodiscard]] std::vector<Detection> find_hypotheses(const Scene& scene,
+                                                     std::span<const Vote<Dimension>> votes,
+                                                     const Bandwidth<Dimension>& bandwidth,
+                                                     const DetectOptions& options) {
     const auto labels = split_by_label(votes);
-    const auto modes =
-        strongest_modes<K>(std::span<const std::span<const Vote<dimension>>>(labels), options.bandwidth,
-                           options.mean_shift, options.max_candidates, options.keep, options.threads);
+    const auto modes = strongest_modes<K>(std::span<const std::span<const Vote<Dimension>>>(labels),
+                                          bandwidth, options.mean_shift, options.max_candidates,
+                                          options.min_relative_score, scene.pool);
     std::vector<Detection> hypotheses(modes.size());
-    parallel_for(modes.size(), options.threads, [&](std::size_t i) {
+    scene.pool.for_each(modes.size(), [&](std::size_t i, unsigned) {
         const auto of_label = std::lower_bound(
             labels.begin(), labels.end(), modes[i].label,
             [](const auto& part, std::uint32_t label) { return part.front().label < label; });
-        const auto extent = options.bandwidth.at(modes[i].scale);
-        std::vector<std::pair<const Vote<dimension>*, double>> window;
-        for (const Vote<dimension>& vote : *of_label) {
+        const auto extent = bandwidth.at(modes[i].scale);
+        std::vector<Support> window;
+        for (const Vote<Dimension>& vote : *of_label) {
             const double kernel = K::profile(static_cast<float>(sq_windows(vote.at, modes[i].at, extent)));
-            if (kernel > 0) window.emplace_back(&vote, kernel);
+            if (kernel > 0)
+                window.push_back(
+                    {vote.feature, vote.word, vote.occurrence, static_cast<float>(vote.weight * kernel)});
         }
-        hypotheses[i] =
-            detail::describe_hypothesis(modes[i].score, std::move(window), features, shapes, frame);
+        hypotheses[i] = describe_hypothesis(modes[i].score, std::move(window), scene);
     });
     std::erase_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
     return hypotheses;
 }
 
-/// @brief Casts the votes of matched features and finds where they agree: see find_hypotheses().
-/// @throws Error for an option out of range or shapes without objects.
-template <AnyVoteSpace Space, Kernel K = EpanechnikovKernel>
-[[nodiscard]] std::vector<Detection> vote_for(std::span<const Feature> features,
-                                              std::span<const Match> matches, const Shapes& shapes,
-                                              const Frame& frame, const DetectOptions<Space>& options = {}) {
-    check(options);
-    expect(!shapes.objects.empty(), "detection: training objects of the model", "1 or more", 0);
+/// @brief Which votes can be of an object in a scene, by its size and the sizes of the training objects.
+[[nodiscard]] inline VoteLimits vote_limits(const Scene& scene, const DetectOptions& options) {
+    const std::vector<TrainingObject>& objects = scene.model.shapes.objects;
     const auto [smallest, largest] = std::minmax_element(
-        shapes.objects.begin(), shapes.objects.end(),
+        objects.begin(), objects.end(),
         [](const TrainingObject& a, const TrainingObject& b) { return a.size_px < b.size_px; });
     const double min_size_px = options.min_size_px > 0 ? options.min_size_px : smallest->size_px / 2;
     const double max_size_px = options.max_size_px > 0 ? options.max_size_px : largest->size_px * 2;
-    std::vector<Match> nearest;
-    if (options.matching == MatchMode::nearest) nearest = nearest_only(matches);
-    const auto voting = options.matching == MatchMode::nearest ? std::span<const Match>(nearest) : matches;
-    const auto votes = cast_votes<Space>(features, voting, shapes,
-                                         {.width = static_cast<double>(frame.gray.width()),
-                                          .height = static_cast<double>(frame.gray.height()),
-                                          .min_scale = min_size_px / reference_size_px,
-                                          .max_scale = max_size_px / reference_size_px,
-                                          .min_weight = options.min_vote_weight});
-    return find_hypotheses<Space, K>(votes, features, shapes, frame, options);
+    return {.width = static_cast<double>(scene.frame.gray.width()),
+            .height = static_cast<double>(scene.frame.gray.height()),
+            .min_scale = min_size_px / reference_size_px,
+            .max_scale = max_size_px / reference_size_px,
+            .min_weight = options.min_vote_weight};
+}
+
+/// @brief Casts the votes of a scene within limits.
+/// @throws Error for a model without training objects.
+template <VoteSpaceType Space>
+[[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(const Scene& scene, MatchMode matching,
+                                                             const VoteLimits& limits) {
+    const Camera* const camera = scene.frame.camera ? &*scene.frame.camera : nullptr;
+    if (matching == MatchMode::all)
+        return cast_votes<Space>(scene.features, scene.matches, scene.model.shapes, camera, limits);
+    return cast_votes<Space>(scene.features, nearest_only(scene.matches), scene.model.shapes, camera, limits);
 }
 
 }  // namespace ism

@@ -4,68 +4,59 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "ism/core/error.hpp"
 #include "ism/detect/detection.hpp"
-#include "ism/model/occurrence.hpp"
-#include "ism/vote/axes.hpp"
+#include "ism/detect/scene.hpp"
+#include "ism/vote/placement.hpp"
 
 namespace ism {
 
-/// @brief How an object is cut out.
-struct SegmentOptions {
+/// @brief Cuts hypotheses out. To model it, write a small struct with its options as members and
+/// `Segmentation segment(const Detection& hypothesis, const Scene&) const`, which is called from several
+/// threads at once. Options are validated by `void check(const S&)` where there is one.
+template <class S>
+concept Segmenter = std::copyable<S> &&
+    requires(const S& segmenter, const Detection& hypothesis, const Scene& scene) {
+    { segmenter.segment(hypothesis, scene) } -> std::same_as<Segmentation>;
+};
+
+/// @brief Cuts an object out top-down, by its votes: each lays the mask patch of its occurrence over its
+/// feature, placed as the vote says; figure and ground at a pixel are the sums of weight · mask and
+/// weight · (1 − mask), and the mask is where figure outweighs ground (Leibe et al. 2008, section 5).
+struct PatchSegmenter {
     double patch_radius = 6;  ///< half a side of a mask patch, in units of the feature's scale
     double margin = 0.1;      ///< how far beyond the box to look, in parts of its sides
     int max_cells = 64;       ///< the maps are computed on at most so many points a side, then interpolated
+
+    [[nodiscard]] Segmentation segment(const Detection& hypothesis, const Scene& scene) const;
 };
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const PatchSegmenter& options) {
+    expect(options.patch_radius > 0 && options.patch_radius <= 1000, "PatchSegmenter::patch_radius",
+           "above 0, at most 1000", options.patch_radius);
+    expect(options.margin >= 0 && options.margin <= 10, "PatchSegmenter::margin", "0 ... 10", options.margin);
+    expect(options.max_cells >= 1 && options.max_cells <= 65536, "PatchSegmenter::max_cells", "1 ... 65536",
+           options.max_cells);
+}
 
 namespace detail {
 
-/// Share of figure, 0 … 1, of a training object at (x, y) from its centre, pixels of the reference size.
-[[nodiscard]] inline float figure_share(const TrainingObject& object, float x, float y) {
-    const Mask& mask = object.mask;
-    const float column = (x / object.width + 0.5f) * static_cast<float>(mask.width()) - 0.5f;
-    const float row = (y / object.height + 0.5f) * static_cast<float>(mask.height()) - 0.5f;
-    const float c0 = std::floor(column), r0 = std::floor(row);
-    if (!(c0 >= -1 && r0 >= -1 && c0 < static_cast<float>(mask.width()) &&
-          r0 < static_cast<float>(mask.height())))
-        return 0;
-    const int c = static_cast<int>(c0), r = static_cast<int>(r0);
-    const float ac = column - c0, ar = row - r0;
-    const auto at = [&](int i, int j) { return mask.contains(i, j) ? static_cast<float>(mask(i, j)) : 0.0f; };
-    return ((1 - ar) * ((1 - ac) * at(c, r) + ac * at(c + 1, r)) +
-            ar * ((1 - ac) * at(c, r + 1) + ac * at(c + 1, r + 1))) /
-           255.0f;
-}
-
-}  // namespace detail
-
-/// @brief Cuts out an object top-down: each vote of its support lays the mask patch of its occurrence over
-/// the feature, scaled as the vote says; figure and ground at a pixel are the sums of weight · mask and
-/// weight · (1 − mask), and the mask is where figure outweighs ground (Leibe et al. 2008, section 5).
-/// The part of the picture around `box` is looked at.
-/// @param support  votes of one class only (Eq 5 and after: others are false positives)
-[[nodiscard]] inline Segmentation segment(std::span<const Feature> features, const Shapes& shapes,
-                                          std::span<const Support> support, const Box& box, int picture_width,
-                                          int picture_height, const SegmentOptions& options = {}) {
-    const double mx = options.margin * box.width, my = options.margin * box.height;
-    const auto inside = [](double px, int end) {
-        return static_cast<int>(std::clamp(px, 0.0, static_cast<double>(end)));
-    };
-    const int left = inside(std::floor(box.x - mx), picture_width - 1);
-    const int top = inside(std::floor(box.y - my), picture_height - 1);
-    const int width = std::max(1, inside(std::ceil(box.x + box.width + mx), picture_width) - left);
-    const int height = std::max(1, inside(std::ceil(box.y + box.height + my), picture_height) - top);
-    const int step = std::max(1, (std::max(width, height) + options.max_cells - 1) / options.max_cells);
-    GrayImage figure((width + step - 1) / step, (height + step - 1) / step), ground = figure;
-
-    // Several words may vote through the same training feature: one patch with their weights together.
+/// Several words may vote through the same training feature: one patch with their weights together, which
+/// add up to 1 over all patches.
+[[nodiscard]] inline std::vector<Support> joined_patches(std::span<const Support> support,
+                                                         const ShapeModel& shapes) {
     std::vector<Support> patches(support.begin(), support.end());
     const auto key = [&](const Support& s) {
-        return std::pair(s.feature, shapes.occurrences[s.occurrence].feature);
+        return std::pair(s.feature, shapes.occurrence(s.occurrence).feature);
     };
     std::stable_sort(patches.begin(), patches.end(),
                      [&](const Support& a, const Support& b) { return key(a) < key(b); });
@@ -79,14 +70,33 @@ namespace detail {
             patches[count++] = patch;
     }
     patches.resize(count);
+    for (Support& patch : patches) patch.weight = static_cast<float>(patch.weight / total);
+    return patches;
+}
 
-    for (const Support& patch : patches) {
-        const Feature& f = features[patch.feature];
-        const Occurrence& o = shapes.occurrences[patch.occurrence];
+}  // namespace detail
+
+inline Segmentation PatchSegmenter::segment(const Detection& hypothesis, const Scene& scene) const {
+    const Box& box = hypothesis.box;
+    const int image_width = scene.frame.gray.width(), image_height = scene.frame.gray.height();
+    const double mx = margin * box.width, my = margin * box.height;
+    const auto inside = [](double px, int end) {
+        return static_cast<int>(std::clamp(px, 0.0, static_cast<double>(end)));
+    };
+    const int left = inside(std::floor(box.x - mx), image_width - 1);
+    const int top = inside(std::floor(box.y - my), image_height - 1);
+    const int width = std::max(1, inside(std::ceil(box.x + box.width + mx), image_width) - left);
+    const int height = std::max(1, inside(std::ceil(box.y + box.height + my), image_height) - top);
+    const int step = std::max(1, (std::max(width, height) + max_cells - 1) / max_cells);
+    GrayImage figure((width + step - 1) / step, (height + step - 1) / step), ground = figure;
+
+    const ShapeModel& shapes = scene.model.shapes;
+    for (const Support& patch : detail::joined_patches(hypothesis.support, shapes)) {
+        const Feature& f = scene.features[patch.feature];
+        const Occurrence& o = shapes.occurrence(patch.occurrence);
         const TrainingObject& object = shapes.objects[o.object];
-        const double radius = options.patch_radius * f.scale;
-        const auto to_reference = static_cast<float>(1 / scale_ratio(f, o));
-        const auto weight = static_cast<float>(patch.weight / total);
+        const Placement placed = placement(f, o);
+        const double radius = patch_radius * f.scale;
         const auto cell = [&](double px, int cells) {
             return static_cast<int>(std::clamp(std::ceil(px / step), 0.0, static_cast<double>(cells)));
         };
@@ -94,15 +104,18 @@ namespace detail {
                   x1 = cell(f.x + radius - left, figure.width());
         const int y0 = cell(f.y - radius - top, figure.height()),
                   y1 = cell(f.y + radius - top, figure.height());
-        for (int y = y0; y < y1; ++y) {
-            const float v = o.y + (static_cast<float>(top + y * step) - f.y) * to_reference;
+        // On the object a step to the right is (dx.x, dx.y), whatever it is turned by.
+        const Point2 origin = to_object(placed, {double(left), double(top)});
+        const Point2 right = to_object(placed, {double(left + step), double(top)});
+        const Point2 down = to_object(placed, {double(left), double(top + step)});
+        const Point2 dx{right.x - origin.x, right.y - origin.y}, dy{down.x - origin.x, down.y - origin.y};
+        for (int y = y0; y < y1; ++y)
             for (int x = x0; x < x1; ++x) {
-                const float u = o.x + (static_cast<float>(left + x * step) - f.x) * to_reference;
-                const float share = detail::figure_share(object, u, v);
-                figure(x, y) += weight * share;
-                ground(x, y) += weight * (1 - share);
+                const float share = figure_share(object, static_cast<float>(origin.x + x * dx.x + y * dy.x),
+                                                 static_cast<float>(origin.y + x * dx.y + y * dy.y));
+                figure(x, y) += patch.weight * share;
+                ground(x, y) += patch.weight * (1 - share);
             }
-        }
     }
 
     Segmentation result{.x = left, .y = top, .figure = {}, .ground = {}, .mask = Mask(width, height)};

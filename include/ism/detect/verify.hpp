@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "ism/core/error.hpp"
 #include "ism/detect/detection.hpp"
+#include "ism/detect/scene.hpp"
 
 namespace ism {
 
@@ -18,10 +20,13 @@ struct Verified {
     double score = 0;
 };
 
-/// @brief Decides which of several hypotheses stay.
+/// @brief Decides which of several hypotheses stay. To model it, write a small struct with its options as
+/// members and `std::vector<Verified> verify(std::span<const Detection>, const Scene&) const`. Options are
+/// validated by `void check(const V&)` where there is one.
 template <class V>
-concept Verifier = std::copyable<V> && requires(const V& verifier, std::span<const Detection> hypotheses) {
-    { verifier.verify(hypotheses) } -> std::same_as<std::vector<Verified>>;
+concept Verifier = std::copyable<V> &&
+    requires(const V& verifier, std::span<const Detection> hypotheses, const Scene& scene) {
+    { verifier.verify(hypotheses, scene) } -> std::same_as<std::vector<Verified>>;
 };
 
 /// @brief Plain non-maximum suppression: of hypotheses whose boxes overlap the strongest stays.
@@ -46,7 +51,17 @@ struct NonMaximumSuppression {
         }
         return kept;
     }
+    [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> hypotheses, const Scene&) const {
+        return verify(hypotheses);
+    }
 };
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const NonMaximumSuppression& options) {
+    expect(options.max_iou >= 0 && options.max_iou <= 1, "NonMaximumSuppression::max_iou", "0 ... 1",
+           options.max_iou);
+}
 
 /// @brief What a set of hypotheses saves: each has its own savings, and each pair pays for what both claim.
 struct Savings {
@@ -114,6 +129,9 @@ struct Mdl {
                 gain[i] -= all.cost[best * hypotheses.size() + i];
         }
     }
+    [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> hypotheses, const Scene&) const {
+        return verify(hypotheses);
+    }
 
 private:
     [[nodiscard]] double worth(const Segmentation& part, int x, int y) const {
@@ -132,5 +150,14 @@ private:
         return sum / weaker.box.area();
     }
 };
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const Mdl& options) {
+    expect(options.k1_over_k0 >= 0 && options.k1_over_k0 <= 1e6, "Mdl::k1_over_k0", "0 ... 1e6",
+           options.k1_over_k0);
+    expect(options.k2_over_k0 >= 0 && options.k2_over_k0 <= 1, "Mdl::k2_over_k0", "0 ... 1",
+           options.k2_over_k0);
+}
 
 }  // namespace ism

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,9 +32,15 @@ struct Region {
 template <Detector D, Descriptor Desc>
 class FeatureExtractor {
 public:
+    using Set = FeatureSet<typename Desc::Scalar>;
+
     /// @param threads  of the pool that works on an image (0 = all the machine has)
     explicit FeatureExtractor(Extractor<D, Desc> extractor = {}, unsigned threads = 1)
         : extractor_(std::move(extractor)), workspace_(threads) {}
+
+    /// @param pool  that works on an image; it has to stay as long as this
+    FeatureExtractor(Extractor<D, Desc> extractor, ThreadPool& pool)
+        : extractor_(std::move(extractor)), workspace_(pool) {}
 
     /// @brief Features of `image` (brightness 0 … 1) and their descriptors, until the next call; positions
     /// and scales are in pixels of `image` whatever it was resized by. The same for any number of threads.
@@ -41,14 +48,14 @@ public:
     /// without.
     /// @throws Error where the image, resized or not, or the region is smaller than 16×16, a pixel is not
     /// finite or an option is out of range.
-    const FeatureSet<Desc>& extract(ImageView<const float> image, std::optional<Region> region = {}) {
+    const Set& extract(ImageView<const float> image, std::optional<Region> region = {}) {
         check_size(image);
         each_row(image.height(), [&](int y) { check_finite(image, y); });
         return part(image, region);
     }
 
     /// @brief The same for an image of 8 bits, 0 (black) … 255 (white).
-    const FeatureSet<Desc>& extract(ImageView<const std::uint8_t> image, std::optional<Region> region = {}) {
+    const Set& extract(ImageView<const std::uint8_t> image, std::optional<Region> region = {}) {
         check_size(image);
         GrayImage gray = workspace_.image(image.width(), image.height());
         each_row(image.height(), [&](int y) {
@@ -62,7 +69,10 @@ public:
     }
 
     /// @brief What the last image gave, to keep.
-    [[nodiscard]] FeatureSet<Desc> take() { return std::move(set_); }
+    [[nodiscard]] Set take() {
+        return std::exchange(
+            set_, {.features = {}, .descriptors = Descriptors<typename Desc::Scalar>(Desc::dimension)});
+    }
     /// @brief Scale space of the last image, resized by its upsampling.
     [[nodiscard]] const ScaleSpace& scale_space() const { return space_; }
 
@@ -96,7 +106,7 @@ private:
     }
 
     /// The features of a region, or of the whole image.
-    const FeatureSet<Desc>& part(ImageView<const float> image, const std::optional<Region>& region) {
+    const Set& part(ImageView<const float> image, const std::optional<Region>& region) {
         if (!region) return run(image, 0, 0, {0, 0, image.width(), image.height()});
         (void)image.region(region->x, region->y, region->width, region->height);
         expect(region->width >= 16 && region->height >= 16, "image region size", "at least 16x16",
@@ -143,7 +153,7 @@ private:
 
     /// `image` is the part of the whole that begins at (x0, y0); kept is what lies in the region of the
     /// whole.
-    const FeatureSet<Desc>& run(ImageView<const float> image, int x0, int y0, const Region& region) {
+    const Set& run(ImageView<const float> image, int x0, int y0, const Region& region) {
         const ExtractOptions& options = extractor_.options;
         const float factor = float(options.upsampling);
         std::vector<Feature>& features = set_.features;
@@ -182,20 +192,23 @@ private:
             (count + features_per_task - 1) / features_per_task, [&](std::size_t task, unsigned) {
                 const std::size_t first = task * features_per_task;
                 for (std::size_t i = first; i < std::min(count, first + features_per_task); ++i)
-                    extractor_.descriptor.describe(space_, set_.features[i], set_.descriptors.row(i));
+                    extractor_.descriptor.describe(
+                        space_, set_.features[i],
+                        std::span<typename Desc::Scalar, Desc::dimension>(set_.descriptors.row(i)));
             });
     }
 
     Extractor<D, Desc> extractor_;
     Workspace workspace_;
     ScaleSpace space_;
-    FeatureSet<Desc> set_;
+    Set set_{.features = {}, .descriptors = Descriptors<typename Desc::Scalar>(Desc::dimension)};
 };
 
 /// @brief Features of one image: FeatureExtractor::extract() with threads and memory of its own.
 template <Detector D, Descriptor Desc>
-[[nodiscard]] FeatureSet<Desc> extract(ImageView<const float> image, const Extractor<D, Desc>& extractor,
-                                       unsigned threads = 1) {
+[[nodiscard]] FeatureSet<typename Desc::Scalar> extract(ImageView<const float> image,
+                                                        const Extractor<D, Desc>& extractor,
+                                                        unsigned threads = 1) {
     FeatureExtractor<D, Desc> once(extractor, threads);
     once.extract(image);
     return once.take();

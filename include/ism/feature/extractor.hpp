@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "ism/feature/descriptor.hpp"
 #include "ism/feature/detector.hpp"
@@ -26,13 +25,6 @@ struct Extractor {
     D detector = {};
     Desc descriptor = {};
     ExtractOptions options = {};
-};
-
-/// @brief Features with their descriptors: row i describes feature i.
-template <Descriptor Desc>
-struct FeatureSet {
-    std::vector<Feature> features;
-    Descriptors<typename Desc::Scalar, Desc::dimension> descriptors;
 };
 
 }  // namespace ism

@@ -6,10 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "ism/core/camera.hpp"
+#include "ism/core/error.hpp"
 
 namespace ism {
 
@@ -27,36 +28,56 @@ struct Feature {
 template <class T>
 concept DescriptorScalar = std::same_as<T, float> || std::same_as<T, std::uint8_t>;
 
-/// @brief Descriptors one after another: row i holds the `Dimension` numbers of feature i.
-template <DescriptorScalar T, std::size_t Dimension>
-requires(Dimension > 0) class Descriptors {
+/// @brief Descriptors one after another: row i holds the `dimension()` numbers of feature i.
+template <DescriptorScalar T>
+class Descriptors {
 public:
     using Scalar = T;
-    static constexpr std::size_t dimension = Dimension;
 
     Descriptors() = default;
-    explicit Descriptors(std::size_t count) : values_(count * Dimension) {}
+    /// @brief `count` rows of `dimension` zeros.
+    explicit Descriptors(std::size_t dimension, std::size_t count = 0)
+        : dimension_(dimension), values_(dimension * count) {}
+    /// @brief Takes over the numbers of whole rows.
+    /// @throws Error where they are none of `dimension`.
+    Descriptors(std::size_t dimension, std::vector<T> values)
+        : dimension_(dimension), values_(std::move(values)) {
+        expect(dimension > 0 && values_.size() % dimension == 0, "descriptors: numbers",
+               lazy_text("whole rows of ", dimension), values_.size());
+    }
 
-    [[nodiscard]] std::size_t size() const { return values_.size() / Dimension; }
+    /// @brief Numbers of a row.
+    [[nodiscard]] std::size_t dimension() const { return dimension_; }
+    [[nodiscard]] std::size_t size() const { return dimension_ > 0 ? values_.size() / dimension_ : 0; }
     [[nodiscard]] bool empty() const { return values_.empty(); }
-    [[nodiscard]] std::span<T, Dimension> row(std::size_t i) {
-        return std::span<T, Dimension>(values_.data() + i * Dimension, Dimension);
+    [[nodiscard]] std::span<T> row(std::size_t i) { return {values_.data() + i * dimension_, dimension_}; }
+    [[nodiscard]] std::span<const T> row(std::size_t i) const {
+        return {values_.data() + i * dimension_, dimension_};
     }
-    [[nodiscard]] std::span<const T, Dimension> row(std::size_t i) const {
-        return std::span<const T, Dimension>(values_.data() + i * Dimension, Dimension);
-    }
-    void push_back(std::span<const T, Dimension> row) {
+    /// @throws Error for a row of another dimension.
+    void push_back(std::span<const T> row) {
+        expect(row.size() == dimension_, "descriptors: numbers of a row", dimension_, row.size());
         values_.insert(values_.end(), row.begin(), row.end());
     }
-    void reserve(std::size_t count) { values_.reserve(count * Dimension); }
-    void resize(std::size_t count) { values_.resize(count * Dimension); }
+    void reserve(std::size_t count) { values_.reserve(count * dimension_); }
+    void resize(std::size_t count) { values_.resize(count * dimension_); }
 
     /// @brief All numbers, row after row.
     [[nodiscard]] std::span<T> values() { return values_; }
     [[nodiscard]] std::span<const T> values() const { return values_; }
 
+    [[nodiscard]] bool operator==(const Descriptors&) const = default;
+
 private:
+    std::size_t dimension_ = 0;
     std::vector<T> values_;
+};
+
+/// @brief Features with their descriptors: row i describes feature i.
+template <DescriptorScalar T>
+struct FeatureSet {
+    std::vector<Feature> features;
+    Descriptors<T> descriptors;
 };
 
 }  // namespace ism

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,9 +22,13 @@ namespace ism {
 class Workspace {
 public:
     /// @brief For so many threads, the caller's among them (0 = all the machine has).
-    explicit Workspace(unsigned threads = 1) : pool_(threads), rows_(pool_.size()) {}
+    explicit Workspace(unsigned threads = 1)
+        : own_(std::make_unique<ThreadPool>(threads)), pool_(own_.get()), rows_(pool_->size()) {}
 
-    [[nodiscard]] ThreadPool& pool() { return pool_; }
+    /// @brief With threads that others use too, between frames.
+    explicit Workspace(ThreadPool& pool) : pool_(&pool), rows_(pool.size()) {}
+
+    [[nodiscard]] ThreadPool& pool() { return *pool_; }
 
     /// @brief `count` numbers for one worker of the pool, until it asks again; their values are open. The
     /// first lies at the start of a cache line.
@@ -86,7 +91,8 @@ public:
     }
 
 private:
-    ThreadPool pool_;
+    std::unique_ptr<ThreadPool> own_;
+    ThreadPool* pool_;
     std::vector<AlignedVector<float>> rows_;
     std::vector<std::vector<Feature>> lists_, spare_;
     std::vector<std::vector<std::uint32_t>> numbers_;

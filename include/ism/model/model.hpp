@@ -2,22 +2,65 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include "ism/codebook/codebook.hpp"
-#include "ism/feature/extract.hpp"
-#include "ism/model/occurrence.hpp"
+#include "ism/feature/feature_settings.hpp"
+#include "ism/model/box_classifier.hpp"
+#include "ism/model/calibration.hpp"
+#include "ism/model/shape_model.hpp"
 
 namespace ism {
 
-/// @brief What training gives and detection needs, whatever the vote space: how to find and describe
-/// features, the words, and where on which objects they occur.
-template <Detector D, Descriptor Desc>
+/// @brief A kind of features and the words they are matched to. A model may have several: words of different
+/// descriptors vote together.
+struct Channel {
+    FeatureSettings features;  ///< how they are found and described
+    Codebook codebook = {};
+};
+
+/// @brief What training saw, to be told.
+struct TrainingSummary {
+    std::size_t images = 0;          ///< background images included
+    std::size_t features_found = 0;  ///< on the objects
+    std::size_t features_used = 0;   ///< the strongest of them, where there were more than the limit
+    [[nodiscard]] bool operator==(const TrainingSummary&) const = default;
+};
+
+/// @brief What training gives and detection needs, whatever the vote space, as plain data. Words are numbered
+/// through all channels: those of a channel follow those of the channel before.
 struct Model {
-    Extractor<D, Desc> extractor;
-    Codebook<Desc::dimension, typename Desc::Scalar> codebook;  ///< of bytes for descriptors of bytes
-    Shapes shapes;
-    /// Descriptors of the training features, by Occurrence::feature; empty = not kept. Only growing needs
-    /// them: see grow_model().
-    Descriptors<typename Desc::Scalar, Desc::dimension> memory = {};
+    std::vector<Channel> channels = {};
+    ShapeModel shapes = {};
+    BoxClassifier box_classifier = {};  ///< may be empty
+    Calibration calibration = {};       ///< may be empty
+    TrainingSummary training = {};
+
+    /// @brief Number of words of all channels.
+    [[nodiscard]] std::size_t words() const { return first_word(channels.size()); }
+    /// @brief Number of the first word of a channel.
+    [[nodiscard]] std::size_t first_word(std::size_t channel) const {
+        std::size_t words = 0;
+        for (std::size_t c = 0; c < channel; ++c) words += channels[c].codebook.size();
+        return words;
+    }
+};
+
+/// @brief A model whose detector and descriptor the compiler knows: what train() returns and detect() takes.
+/// A model of other features is another type.
+template <Detector D, Descriptor Desc>
+struct TypedModel : Model {
+    TypedModel() = default;
+    /// @throws Error where the model has other features, or several channels.
+    explicit TypedModel(Model model) : Model(std::move(model)) { (void)extractor(); }
+
+    /// @brief How its features are found.
+    [[nodiscard]] Extractor<D, Desc> extractor() const {
+        expect(channels.size() == 1, "model: channels of words", 1, channels.size());
+        return extractor_from<D, Desc>(channels[0].features);
+    }
 };
 
 }  // namespace ism

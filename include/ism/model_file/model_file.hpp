@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -13,31 +12,21 @@
 #include <utility>
 #include <vector>
 
+#include "ism/io/json.hpp"
+#include "ism/io/write_file.hpp"
 #include "ism/model/model.hpp"
-#include "ism/model_file/model_parameters.hpp"
-#include "ism/model_file/model_shapes.hpp"
+#include "ism/model_file/judge_tensors.hpp"
 #include "ism/model_file/safetensors.hpp"
+#include "ism/model_file/settings_json.hpp"
+#include "ism/model_file/shape_tensors.hpp"
+#include "ism/model_file/training_tensors.hpp"
 
 namespace ism {
-
-/// @brief What a model file says of itself.
-struct ModelInfo {
-    std::int64_t format_version = 0;
-    std::string detector, descriptor;  ///< D::name, Desc::name
-    std::string scalar;                ///< of the descriptor: "F32" or "U8"
-    std::size_t dimension = 0;         ///< numbers of a descriptor
-    std::size_t words = 0, occurrences = 0, objects = 0;
-    std::vector<std::string> class_names;
-    double max_sq_distance = 0;    ///< up to which a descriptor matches a word
-    double upsampling = 1;         ///< of images before features are searched
-    double reference_size_px = 0;  ///< that scale 1 stands for
-    std::string parameters;        ///< of detector, descriptor and extraction, as JSON
-};
 
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 5;
+inline constexpr std::int64_t model_format_version = 6;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {
@@ -62,156 +51,141 @@ inline constexpr std::int64_t model_format_version = 5;
     return file;
 }
 
-[[nodiscard]] inline ModelInfo model_info(const TensorFile& file) {
-    ModelInfo info{.format_version = model_format_version,
-                   .detector = metadata_text(file, "detector"),
-                   .descriptor = metadata_text(file, "descriptor"),
-                   .scalar = metadata_text(file, "scalar"),
-                   .class_names = read_class_names(file),
-                   .max_sq_distance = metadata_number(file, "max_sq_distance"),
-                   .reference_size_px = metadata_number(file, "reference_size_px"),
-                   .parameters = metadata_text(file, "parameters")};
-    if (info.scalar == type_name(tensor_type<std::uint8_t>))
-        (void)values<std::uint8_t>(file, "words", {any_length, any_length});
-    else
-        (void)values<float>(file, "words", {any_length, any_length});
-    info.words = tensor(file, "words").shape[0], info.dimension = tensor(file, "words").shape[1];
-    info.occurrences = values<float>(file, "occurrences", {any_length, 5}).size() / 5;
-    info.objects = values<std::uint32_t>(file, "object_classes", {any_length}).size();
-    const std::string place = file.source + ", parameters";
-    const Json extraction = member(parse_json(info.parameters, place), "extraction", place);
-    info.upsampling = number_member(extraction, "upsampling", place);
-    return info;
+inline void codebook_to_tensors(const Codebook& codebook, const std::string& prefix, TensorFile& file) {
+    const std::size_t words = codebook.size();
+    file.tensors[prefix + "words"] =
+        make_tensor<float>(codebook.means().values(), {words, codebook.dimension()});
+    file.tensors[prefix + "mean_sq_length"] = make_tensor<float>(codebook.mean_sq_lengths(), {words});
+    file.tensors[prefix + "word_group"] = make_tensor<std::uint32_t>(codebook.groups(), {words});
+    file.tensors[prefix + "word_size"] = make_tensor<std::uint32_t>(codebook.sizes(), {words});
 }
 
 /// The words, one by one checked.
-template <std::size_t Dimension, DescriptorScalar Scalar>
-[[nodiscard]] Codebook<Dimension, Scalar> codebook_from_tensors(const TensorFile& file, std::size_t words,
-                                                                std::size_t classes) {
-    const auto numbers = values<Scalar>(file, "words", {words, Dimension});
-    const auto lengths = values<float>(file, "mean_sq_length", {words});
-    const auto groups = values<std::uint32_t>(file, "group", {words});
-    const auto sizes = values<std::uint32_t>(file, "word_sizes", {words});
-    Codebook<Dimension, Scalar> codebook;
-    codebook.words = Descriptors<Scalar, Dimension>(words);
-    codebook.max_sq_distance = metadata_number(file, "max_sq_distance");
+[[nodiscard]] inline Codebook codebook_from_tensors(const TensorFile& file, const std::string& prefix,
+                                                    std::size_t dimension, double max_sq_distance,
+                                                    std::size_t classes) {
+    const auto means = values<float>(file, prefix + "words", {any_length, dimension});
+    const std::size_t words = means.size() / dimension;
+    const auto lengths = values<float>(file, prefix + "mean_sq_length", {words});
+    const auto groups = values<std::uint32_t>(file, prefix + "word_group", {words});
+    const auto sizes = values<std::uint32_t>(file, prefix + "word_size", {words});
     expect<FileError>(words > 0, lazy_text(file.source, ": words"), "1 or more", 0);
-    expect<FileError>(codebook.max_sq_distance >= 0, lazy_text(file.source, ": max_sq_distance"), "0 or more",
-                      codebook.max_sq_distance);
-    for (const Scalar number : numbers)
-        expect<FileError>(std::isfinite(float(number)), lazy_text(file.source, ": words"), "finite numbers",
-                          float(number));
-    for (const float length : lengths)
-        expect<FileError>(std::isfinite(length) && length >= 0, lazy_text(file.source, ": mean_sq_length"),
-                          "0 or more", length);
-    for (const std::uint32_t group : groups)
-        expect<FileError>(group < classes, lazy_text(file.source, ": group of a word"),
-                          lazy_text("below ", classes), group);
-    for (const std::uint32_t size : sizes)
-        expect<FileError>(size > 0, lazy_text(file.source, ": word_sizes"), "1 or more", size);
-    std::copy(numbers.begin(), numbers.end(), codebook.words.values().begin());
-    codebook.mean_sq_length.assign(lengths.begin(), lengths.end());
-    codebook.group.assign(groups.begin(), groups.end());
-    codebook.sizes.assign(sizes.begin(), sizes.end());
+    for (const float number : means)
+        expect<FileError>(std::isfinite(number), lazy_text(file.source, ": words"), "finite numbers", number);
+    Codebook codebook(dimension, max_sq_distance);
+    for (std::size_t w = 0; w < words; ++w) {
+        expect<FileError>(std::isfinite(lengths[w]) && lengths[w] >= 0,
+                          lazy_text(file.source, ": mean_sq_length"), "0 or more", lengths[w]);
+        expect<FileError>(groups[w] < classes, lazy_text(file.source, ": group of a word"),
+                          lazy_text("below ", classes), groups[w]);
+        expect<FileError>(sizes[w] > 0, lazy_text(file.source, ": word_size"), "1 or more", sizes[w]);
+        codebook.push_back({means.subspan(w * dimension, dimension), lengths[w], sizes[w], groups[w]});
+    }
     return codebook;
 }
 
-/// The descriptors of training features, where they were kept, one by one checked.
-template <std::size_t Dimension, DescriptorScalar Scalar>
-[[nodiscard]] Descriptors<Scalar, Dimension> memory_from_tensor(const TensorFile& file,
-                                                                const Shapes& shapes) {
-    if (!file.tensors.contains("memory")) return {};
-    const auto numbers = values<Scalar>(file, "memory", {any_length, Dimension});
-    for (const Scalar number : numbers)
-        expect<FileError>(std::isfinite(float(number)), lazy_text(file.source, ": memory"), "finite numbers",
-                          float(number));
-    Descriptors<Scalar, Dimension> memory(numbers.size() / Dimension);
-    std::copy(numbers.begin(), numbers.end(), memory.values().begin());
-    for (const Occurrence& o : shapes.occurrences)
-        expect<FileError>(o.feature < memory.size(), lazy_text(file.source, ": feature of an occurrence"),
-                          lazy_text("below the ", memory.size(), " that are kept"), o.feature);
-    return memory;
+[[nodiscard]] inline std::string channel_prefix(std::size_t channel) {
+    return join_text("channel_", channel, "_");
+}
+
+/// The tensors of a model, as save_model() writes them.
+[[nodiscard]] inline TensorFile model_to_tensors(const Model& model, const std::string& source) {
+    TensorFile file{.source = source};
+    // A member that is added to Model does not compile here until it is kept too.
+    const auto& [channels, shapes, box_classifier, calibration, training] = model;
+    expect<FileError>(model.words() > 0 && shapes.occurrences.size() == model.words(),
+                      lazy_text(source, ": words with occurrences"), model.words(),
+                      shapes.occurrences.size());
+    Json list = Json::array();
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        const auto& [settings, codebook] = channels[c];
+        Json channel = settings_to_json(settings, source);
+        channel["max_sq_distance"] = codebook.max_sq_distance();
+        list.push_back(channel);
+        codebook_to_tensors(codebook, channel_prefix(c), file);
+    }
+    const auto& [images, features_found, features_used] = training;
+    file.metadata = {
+        {"format", std::string(model_format)},
+        {"format_version", join_text(model_format_version)},
+        {"channels", dump_json(list, source)},
+        {"training",
+         Json{{"images", images}, {"features_found", features_found}, {"features_used", features_used}}
+             .dump()},
+        {"reference_size_px", Json(reference_size_px).dump()},
+        {"mask_cell_px", Json(mask_cell_px).dump()}};
+    shapes_to_tensors(shapes, file);
+    box_classifier_to_tensors(box_classifier, file);
+    calibration_to_tensors(calibration, file);
+    return file;
+}
+
+[[nodiscard]] inline Model model_from_tensors(const TensorFile& file) {
+    Model model;
+    const std::size_t classes = read_class_names(file).size();
+    const std::string place = file.source + ", channels";
+    const Json list = parse_json(metadata_text(file, "channels"), place);
+    if (!list.is_array() || list.empty())
+        throw FileError(place + ": expected an array of 1 or more, got " + json_text(list));
+    for (std::size_t c = 0; c < list.size(); ++c) {
+        Channel channel{.features = settings_from_json(list[c], place)};
+        const double max_sq_distance = number_member(list[c], "max_sq_distance", place);
+        expect<FileError>(max_sq_distance >= 0, lazy_text(place, ": max_sq_distance"), "0 or more",
+                          max_sq_distance);
+        channel.codebook = codebook_from_tensors(file, channel_prefix(c), channel.features.dimension,
+                                                 max_sq_distance, classes);
+        model.channels.push_back(std::move(channel));
+    }
+    const std::string training_place = file.source + ", training";
+    const Json training = parse_json(metadata_text(file, "training"), training_place);
+    const auto count = [&](const char* key) {
+        return static_cast<std::size_t>(
+            std::max<std::int64_t>(0, integer_member(training, key, training_place)));
+    };
+    model.training = {count("images"), count("features_found"), count("features_used")};
+    model.shapes = shapes_from_tensors(file, model.words());
+    model.box_classifier = box_classifier_from_tensors(file, model.words(), classes);
+    model.calibration = calibration_from_tensors(file, classes);
+    return model;
 }
 
 }  // namespace detail
 
-/// @brief Writes a model as a safetensors file, at one stroke. The same model gives the same bytes.
-/// @throws FileError where the file cannot be written, a name is not UTF-8, or load_model() would refuse the
-/// sizes.
-template <Detector D, Descriptor Desc>
-void save_model(const std::filesystem::path& path, const Model<D, Desc>& model) {
-    using detail::Json;
-    TensorFile file{.source = detail::file_text(path)};
-    // A member that is added to Codebook does not compile here until it is kept too.
-    [[maybe_unused]] const auto& [rows, lengths, groups, max_sq_distance, sizes] = model.codebook;
-    const std::size_t words = model.codebook.size();
-    expect<FileError>(words > 0 && model.shapes.first.size() == words + 1,
-                      lazy_text(file.source, ": word ranges"), words + 1, model.shapes.first.size());
-    ExtractOptions extraction = model.extractor.options;
-    Json options = Json::object();
-    detail::each_extract_parameter(extraction, detail::WriteParameter{options, file.source});
-    const Json parameters = {
-        {"detector", detail::parameters_to_json(model.extractor.detector, file.source)},
-        {"descriptor", detail::parameters_to_json(model.extractor.descriptor, file.source)},
-        {"extraction", options}};
-    file.metadata = {{"format", std::string(detail::model_format)},
-                     {"format_version", std::to_string(detail::model_format_version)},
-                     {"detector", std::string(D::name)},
-                     {"descriptor", std::string(Desc::name)},
-                     {"scalar", std::string(type_name(tensor_type<typename Desc::Scalar>))},
-                     {"parameters", detail::dump_json(parameters, file.source)},
-                     {"max_sq_distance", Json(model.codebook.max_sq_distance).dump()},
-                     {"reference_size_px", Json(reference_size_px).dump()},
-                     {"mask_cell_px", Json(mask_cell_px).dump()}};
-    file.tensors["words"] =
-        make_tensor<typename Desc::Scalar>(model.codebook.words.values(), {words, Desc::dimension});
-    file.tensors["mean_sq_length"] = make_tensor<float>(model.codebook.mean_sq_length, {words});
-    file.tensors["group"] = make_tensor<std::uint32_t>(model.codebook.group, {words});
-    file.tensors["word_sizes"] = make_tensor<std::uint32_t>(model.codebook.sizes, {words});
-    if (!model.memory.empty())
-        file.tensors["memory"] =
-            make_tensor<typename Desc::Scalar>(model.memory.values(), {model.memory.size(), Desc::dimension});
-    detail::shapes_to_tensors(model.shapes, file);
+/// @brief Writes a model as a safetensors file, atomically. The same model gives the same bytes.
+/// @param lessons  also keeps the training features, for load_training_features(): more can then be learnt
+/// @throws FileError where the file cannot be written, a name is not UTF-8, or load_model() would refuse it;
+/// nothing is written then.
+inline void save_model(const std::filesystem::path& path, const Model& model,
+                       const TrainingFeatures* lessons = nullptr) {
+    TensorFile file = detail::model_to_tensors(model, detail::file_text(path));
+    static_cast<void>(detail::model_from_tensors(file));
+    if (lessons != nullptr) detail::training_to_tensors(*lessons, file);
     write_safetensors(path, file);
 }
 
-/// @brief What a model file says of itself, whatever its detector and descriptor.
-/// @throws FileError where it cannot be read, is no model, of another format version, or was altered.
-[[nodiscard]] inline ModelInfo read_model_info(const std::filesystem::path& path) {
-    return detail::model_info(detail::open_model(path));
+/// @brief Reads a model, whatever its features.
+/// @throws FileError where it cannot be read, is no model, of another format version, was altered or
+/// contradicts itself.
+[[nodiscard]] inline Model load_model(const std::filesystem::path& path) {
+    return detail::model_from_tensors(detail::open_model(path));
 }
 
 /// @brief Reads a model of this detector and descriptor.
-/// @throws FileError as read_model_info() does, and where the model is of another detector or descriptor or
-/// contradicts itself.
+/// @throws FileError as the other load_model() does, and where the model is of another detector or
+/// descriptor.
 template <Detector D, Descriptor Desc>
-[[nodiscard]] Model<D, Desc> load_model(const std::filesystem::path& path) {
+[[nodiscard]] TypedModel<D, Desc> load_model(const std::filesystem::path& path) {
+    Model model = load_model(path);
+    return detail::at_place(detail::file_text(path),
+                            [&] { return TypedModel<D, Desc>(std::move(model)); });
+}
+
+/// @brief Reads the training features that save_model() kept beside a model: what learn() made it of.
+/// @throws FileError as load_model() does, and where none were kept.
+[[nodiscard]] inline TrainingFeatures load_training_features(const std::filesystem::path& path) {
     const TensorFile file = detail::open_model(path);
-    const ModelInfo info = detail::model_info(file);
-    expect<FileError>(info.detector == D::name, lazy_text(file.source, ": detector"), D::name, info.detector);
-    expect<FileError>(info.descriptor == Desc::name, lazy_text(file.source, ": descriptor"), Desc::name,
-                      info.descriptor);
-    const std::string_view scalar = type_name(tensor_type<typename Desc::Scalar>);
-    expect<FileError>(info.scalar == scalar, lazy_text(file.source, ": descriptor scalar"), scalar,
-                      info.scalar);
-    expect<FileError>(info.dimension == Desc::dimension, lazy_text(file.source, ": descriptor dimension"),
-                      Desc::dimension, info.dimension);
-    Model<D, Desc> model;
-    const std::string place = file.source + ", parameters";
-    const detail::Json parameters = detail::parse_json(info.parameters, place);
-    detail::parameters_from_json(detail::member(parameters, "detector", place), place + " of the detector",
-                                 model.extractor.detector);
-    detail::parameters_from_json(detail::member(parameters, "descriptor", place),
-                                 place + " of the descriptor", model.extractor.descriptor);
-    detail::read_parameters(
-        detail::member(parameters, "extraction", place), place + " of extraction",
-        [&](const auto& read) { detail::each_extract_parameter(model.extractor.options, read); });
-    expect<FileError>(info.upsampling > 0, lazy_text(place, ": upsampling"), "above 0", info.upsampling);
-    model.codebook = detail::codebook_from_tensors<Desc::dimension, typename Desc::Scalar>(
-        file, info.words, info.class_names.size());
-    model.shapes = detail::shapes_from_tensors(file, info.words);
-    model.memory = detail::memory_from_tensor<Desc::dimension, typename Desc::Scalar>(file, model.shapes);
-    return model;
+    const Model model = detail::model_from_tensors(file);
+    return detail::training_from_tensors(file, model);
 }
 
 }  // namespace ism

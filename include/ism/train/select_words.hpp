@@ -13,26 +13,21 @@
 #include "ism/core/error.hpp"
 #include "ism/model/model.hpp"
 #include "ism/train/information_gain.hpp"
-#include "ism/train/set_occurrences.hpp"
+#include "ism/train/occurrence_weights.hpp"
+#include "ism/train/train_options.hpp"
 #include "ism/train/vote_agreement.hpp"
 
 namespace ism {
 
-/// @brief What tells which words are worth keeping.
-enum class WordMeasure {
-    occurrences,       ///< how often the word was seen (as T_Q, the smallest cluster size)
-    information_gain,  ///< what it tells about the class (Eq 3)
-    vote_agreement,    ///< how much of what it votes is right: class, centre and scale; see vote_agreement()
-};
-
 /// @brief What each word is worth: one number a word, 0 or more; larger is better.
-[[nodiscard]] inline std::vector<double> word_worth(const Shapes& shapes, WordMeasure measure,
+[[nodiscard]] inline std::vector<double> word_worth(const ShapeModel& shapes, WordMeasure measure,
                                                     unsigned threads = 0) {
     if (measure == WordMeasure::vote_agreement) return vote_agreement(shapes, threads);
-    const std::size_t words = shapes.first.size() - 1, classes = shapes.class_names.size();
+    const std::size_t words = shapes.occurrences.size(), classes = shapes.class_names.size();
     std::vector<double> counts(words * classes, 0), seen(words, 0);
     for (std::size_t w = 0; w < words; ++w)
-        for (const Occurrence& o : shapes.of_word(w)) counts[w * classes + o.class_index] += 1, seen[w] += 1;
+        for (const Occurrence& o : shapes.occurrences[w])
+            counts[w * classes + o.class_index] += 1, seen[w] += 1;
     return measure == WordMeasure::occurrences ? seen : information_gain(counts, classes);
 }
 
@@ -56,30 +51,28 @@ enum class WordMeasure {
     return chosen;
 }
 
-/// @brief A model with these words and their occurrences alone, weighed again, before its judge of boxes is
-/// learnt.
+/// @brief A model with these words and their occurrences alone, weighed again, before what counts all its
+/// words is learnt.
 /// @param chosen  words in rising order
-/// @throws Error where none is chosen, or the model already has a judge, which counts all its words.
-template <Detector D, Descriptor Desc>
-[[nodiscard]] Model<D, Desc> keep_words(const Model<D, Desc>& model, std::span<const std::uint32_t> chosen) {
-    expect(!chosen.empty(), "words to keep", "1 or more", 0);
-    expect(model.shapes.appearance.empty(), "words to keep", "a model without a judge of boxes",
-           "one with a judge, which has to be learnt after");
-    Model<D, Desc> kept{.extractor = model.extractor, .codebook = {}, .shapes = {}, .memory = model.memory};
-    kept.codebook.max_sq_distance = model.codebook.max_sq_distance;
-    kept.shapes.class_names = model.shapes.class_names;
-    kept.shapes.objects = model.shapes.objects;
-    kept.shapes.first = {0};
-    for (const std::uint32_t w : chosen) {
-        kept.codebook.words.push_back(model.codebook.words.row(w));
-        kept.codebook.mean_sq_length.push_back(model.codebook.mean_sq_length[w]);
-        kept.codebook.group.push_back(model.codebook.group[w]);
-        kept.codebook.sizes.push_back(model.codebook.sizes[w]);
-        const auto own = model.shapes.of_word(w);
-        kept.shapes.occurrences.insert(kept.shapes.occurrences.end(), own.begin(), own.end());
-        kept.shapes.first.push_back(static_cast<std::uint32_t>(kept.shapes.occurrences.size()));
+/// @throws Error where a channel has none, or the model already has a classifier of boxes.
+[[nodiscard]] inline Model keep_words(const Model& model, std::span<const std::uint32_t> chosen) {
+    expect(model.box_classifier.empty() && model.calibration.empty(), "words to keep",
+           "a model without classifier and calibration", "one with them, which have to be learnt after");
+    Model kept{.channels = {},
+               .shapes = {.class_names = model.shapes.class_names, .objects = model.shapes.objects}};
+    kept.training = model.training;
+    auto next = chosen.begin();
+    for (std::size_t c = 0; c < model.channels.size(); ++c) {
+        const std::size_t first = model.first_word(c), end = model.first_word(c + 1);
+        std::vector<std::uint32_t> words;
+        for (; next != chosen.end() && *next < end; ++next) {
+            words.push_back(*next - static_cast<std::uint32_t>(first));
+            kept.shapes.occurrences.push_back(model.shapes.occurrences[*next]);
+        }
+        expect(!words.empty(), lazy_text("words to keep of channel ", c), "1 or more", 0);
+        kept.channels.push_back({model.channels[c].features, model.channels[c].codebook.select(words)});
     }
-    detail::weigh_occurrences(kept.shapes);
+    weigh_occurrences(kept.shapes);
     return kept;
 }
 

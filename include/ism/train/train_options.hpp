@@ -4,11 +4,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
-#include "ism/train/harvest.hpp"
-#include "ism/train/select_words.hpp"
+#include "ism/core/error.hpp"
+#include "ism/core/progress.hpp"
 
 namespace ism {
+
+/// @brief How features are collected from training images.
+struct TrainingFeatureOptions {
+    std::size_t max_features = 40000;  ///< on all objects together; each gives its strongest, at least 30
+    bool choose_upsampling = true;     ///< small objects are enlarged; false: as the extractor says
+    bool views = true;   ///< also keep all features of the images, which box classifier and calibration need
+    bool mirror = true;  ///< … and those of the mirrored images
+};
 
 /// @brief Whether classes share words.
 enum class CodebookKind {
@@ -16,22 +25,80 @@ enum class CodebookKind {
     per_class,  ///< each class has words of its own, as separate models have
 };
 
-/// @brief How a model is trained.
-struct TrainOptions {
+/// @brief How words are made.
+struct CodebookOptions {
+    CodebookKind kind = CodebookKind::joint;
     double min_similarity = 0.82;      ///< clustering and matching cut-off; 1 = equal, 0 = unrelated
     std::size_t min_cluster_size = 2;  ///< smaller clusters make no word (T_Q + 1)
-    double min_information_gain = 0;   ///< words that tell less about the class are dropped (T_IG)
-    std::size_t max_words = 0;         ///< of more words the best by `measure` stay; 0 = all
+    std::size_t max_features = 30000;  ///< of more features a random part is clustered; all are matched
+    std::uint64_t seed = 1;            ///< chooses that part
+};
+
+/// @brief What tells which words are worth keeping.
+enum class WordMeasure {
+    occurrences,       ///< how often the word was seen (as T_Q, the smallest cluster size)
+    information_gain,  ///< what it tells about the class (Eq 3)
+    vote_agreement,    ///< how much of what it votes is right: class, centre and scale; see vote_agreement()
+};
+
+/// @brief Which words stay.
+struct WordSelection {
+    double min_information_gain = 0;  ///< words that tell less about the class are dropped (T_IG)
+    std::size_t max_words = 0;        ///< of more words the best by `measure` stay; 0 = all
     WordMeasure measure = WordMeasure::vote_agreement;
-    CodebookKind codebook = CodebookKind::joint;
-    std::size_t max_features = 40000;  ///< see HarvestOptions
-    std::size_t max_cluster_features =
-        30000;               ///< of more features a random part is clustered; all are matched
-    std::uint64_t seed = 1;  ///< chooses that part
-    bool memory = false;     ///< also keep the descriptors, so that the model can grow well: see Model
-    bool appearance = true;  ///< also learn what boxes of each class hold, to judge hypotheses
-    unsigned threads = 0;    ///< 0 = all the machine has
+};
+
+/// @brief How the classifier of boxes is fitted, on labelled boxes and on hypotheses in training images whose
+/// own objects cast no votes.
+struct BoxClassifierOptions {
+    double regularisation = 3e-4;       ///< of the squared weights
+    int iterations = 200;               ///< steps of gradient descent
+    std::size_t max_hypotheses = 5000;  ///< of all images together, at least 3 an image
+    std::size_t max_others = 100;       ///< boxes of other classes that a class also learns from
+    double same_iou = 0.5;              ///< a hypothesis that overlaps an object so far shows it
+    double other_iou = 0.3;             ///< one that overlaps all less is background; between is left out
+};
+
+/// @brief How a model is trained.
+struct TrainOptions {
+    TrainingFeatureOptions features = {};
+    CodebookOptions codebook = {};
+    WordSelection selection = {};
+    std::optional<BoxClassifierOptions> box_classifier = BoxClassifierOptions{};  ///< none = votes alone
+    bool calibrate = true;  ///< also learn how scores become probabilities
+    unsigned threads = 0;   ///< 0 = all hardware threads
     Progress progress = {};
 };
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const CodebookOptions& options) {
+    expect(options.min_similarity > -1 && options.min_similarity <= 1, "CodebookOptions::min_similarity",
+           "above -1, at most 1", options.min_similarity);
+    expect(options.min_cluster_size > 0, "CodebookOptions::min_cluster_size", "1 or more", 0);
+    expect(options.max_features > 1, "CodebookOptions::max_features", "2 or more", options.max_features);
+}
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const BoxClassifierOptions& options) {
+    expect(options.regularisation >= 0 && options.regularisation <= 1e6,
+           "BoxClassifierOptions::regularisation", "0 ... 1e6", options.regularisation);
+    expect(options.iterations >= 0, "BoxClassifierOptions::iterations", "0 or more", options.iterations);
+    expect(options.same_iou > 0 && options.same_iou <= 1, "BoxClassifierOptions::same_iou",
+           "above 0, at most 1", options.same_iou);
+    expect(options.other_iou >= 0 && options.other_iou <= options.same_iou, "BoxClassifierOptions::other_iou",
+           "0 ... same_iou", options.other_iou);
+}
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const TrainOptions& options) {
+    expect(options.features.max_features > 0, "TrainingFeatureOptions::max_features", "1 or more", 0);
+    check(options.codebook);
+    expect(options.selection.min_information_gain >= 0, "WordSelection::min_information_gain", "0 or more",
+           options.selection.min_information_gain);
+    if (options.box_classifier) check(*options.box_classifier);
+}
 
 }  // namespace ism

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ism/core/thread_pool.hpp"
-#include "ism/model/occurrence.hpp"
+#include "ism/model/shape_model.hpp"
 #include "ism/vote/axes.hpp"
 #include "ism/vote/kernel.hpp"
 
@@ -41,14 +41,14 @@ namespace ism {
 /// this word leads to the right vote. Unlike the information gain it asks not only which class a word tells,
 /// but also whether it tells where. In words of more than `max_features` so many, evenly chosen, are asked.
 /// @return one number a word, 0 or more
-[[nodiscard]] inline std::vector<double> vote_agreement(const Shapes& shapes, unsigned threads = 0,
+[[nodiscard]] inline std::vector<double> vote_agreement(const ShapeModel& shapes, unsigned threads = 0,
                                                         std::size_t max_features = 500) {
     std::vector<double> of_class(shapes.class_names.size(), 0);
-    for (const Occurrence& o : shapes.occurrences) of_class[o.class_index] += 1;
-    const std::size_t words = shapes.first.empty() ? 0 : shapes.first.size() - 1;
+    for (const Occurrence& o : shapes.occurrences.values()) of_class[o.class_index] += 1;
+    const std::size_t words = shapes.occurrences.size();
     std::vector<double> agreement(words);
     parallel_for(words, threads, [&](std::size_t w) {
-        const std::span<const Occurrence> word = shapes.of_word(w);
+        const std::span<const Occurrence> word = shapes.occurrences[w];
         const std::size_t step =
             std::max<std::size_t>(1, word.size() / std::max<std::size_t>(1, max_features));
         double sum = 0;

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "ism/feature/feature.hpp"
-#include "ism/model/occurrence.hpp"
+#include "ism/vote/vote_source.hpp"
 
 namespace ism {
 
@@ -18,42 +17,36 @@ enum class Growth {
                  ///< 2008)
 };
 
-/// @brief A coordinate of a vote space, told from a feature of the image and an occurrence of the model.
+/// @brief A coordinate of a vote space, told from a feature of the image and an occurrence of the model. To
+/// model it, write a small struct as X below.
 template <class A>
-concept ContinuousAxis = requires(const Feature& f, const Occurrence& o) {
+concept ContinuousAxis = requires(const VoteSource& source) {
     { A::name } -> std::convertible_to<std::string_view>;
     { A::unit } -> std::convertible_to<std::string_view>;
     { A::bandwidth } -> std::convertible_to<double>;
     { A::growth } -> std::convertible_to<Growth>;
     { A::needs_depth } -> std::convertible_to<bool>;
-    { A::vote(f, o) } -> std::convertible_to<double>;
+    { A::vote(source) } -> std::convertible_to<double>;
 };
 
 /// @brief A label of a vote space: votes of different labels never mix.
 template <class A>
-concept DiscreteAxis = requires(const Feature& f, const Occurrence& o) {
+concept DiscreteAxis = requires(const VoteSource& source) {
     { A::name } -> std::convertible_to<std::string_view>;
-    { A::label(f, o) } -> std::same_as<std::uint32_t>;
+    { A::label(source) } -> std::same_as<std::uint32_t>;
 };
 
 /// @brief One coordinate of a vote space, continuous or discrete.
 template <class A>
 concept Axis = ContinuousAxis<A> || DiscreteAxis<A>;
 
-/// @brief How much larger a feature is than where it occurred, s_f / s_i: the scale of the object voted for.
-[[nodiscard]] inline double scale_ratio(const Feature& f, const Occurrence& o) {
-    return double(f.scale) / double(o.scale);
-}
-
-/// @brief x_f − x_i · s_f / s_i: where the object's centre would be (Eq 2).
+/// @brief x_f − x_i · s_f / s_i: where the object's centre would be (Eq 2), see Placement.
 struct X {
     static constexpr std::string_view name = "x", unit = "px";
     static constexpr double bandwidth = 40;
     static constexpr Growth growth = Growth::with_scale;
     static constexpr bool needs_depth = false;
-    [[nodiscard]] static double vote(const Feature& f, const Occurrence& o) {
-        return f.x - o.x * scale_ratio(f, o);
-    }
+    [[nodiscard]] static double vote(const VoteSource& v) { return v.placement.centre.x; }
 };
 
 /// @brief y_f − y_i · s_f / s_i (Eq 2).
@@ -62,9 +55,7 @@ struct Y {
     static constexpr double bandwidth = 40;
     static constexpr Growth growth = Growth::with_scale;
     static constexpr bool needs_depth = false;
-    [[nodiscard]] static double vote(const Feature& f, const Occurrence& o) {
-        return f.y - o.y * scale_ratio(f, o);
-    }
+    [[nodiscard]] static double vote(const VoteSource& v) { return v.placement.centre.y; }
 };
 
 /// @brief s_f / s_i (Eq 2): the object's size relative to the reference size.
@@ -73,7 +64,7 @@ struct Scale {
     static constexpr double bandwidth = 0.4;
     static constexpr Growth growth = Growth::with_scale;
     static constexpr bool needs_depth = false;
-    [[nodiscard]] static double vote(const Feature& f, const Occurrence& o) { return scale_ratio(f, o); }
+    [[nodiscard]] static double vote(const VoteSource& v) { return v.placement.scale; }
 };
 
 /// @brief d_f (Eqs 6 and 7): depth of the feature in the image, metres. Without a reading there is no vote.
@@ -82,7 +73,7 @@ struct Depth {
     static constexpr double bandwidth = 0.15;
     static constexpr Growth growth = Growth::none;
     static constexpr bool needs_depth = true;
-    [[nodiscard]] static double vote(const Feature& f, const Occurrence&) { return f.depth_m; }
+    [[nodiscard]] static double vote(const VoteSource& v) { return v.feature.depth_m; }
 };
 
 /// @brief d_f · s_f / s_i (Eq 8): depth times scale, the same for an object at any distance, metres. Without
@@ -92,15 +83,13 @@ struct ScaledDepth {
     static constexpr double bandwidth = 0.15;
     static constexpr Growth growth = Growth::none;
     static constexpr bool needs_depth = true;
-    [[nodiscard]] static double vote(const Feature& f, const Occurrence& o) {
-        return f.depth_m * scale_ratio(f, o);
-    }
+    [[nodiscard]] static double vote(const VoteSource& v) { return v.feature.depth_m * v.placement.scale; }
 };
 
 /// @brief c_i (Eqs 5 to 8): the class of the occurrence.
 struct Class {
     static constexpr std::string_view name = "c";
-    [[nodiscard]] static std::uint32_t label(const Feature&, const Occurrence& o) { return o.class_index; }
+    [[nodiscard]] static std::uint32_t label(const VoteSource& v) { return v.occurrence.class_index; }
 };
 
 }  // namespace ism

@@ -28,7 +28,7 @@ struct Bandwidth {
 };
 
 /// @brief The default bandwidths of a vote space's axes.
-template <AnyVoteSpace Space>
+template <VoteSpaceType Space>
 [[nodiscard]] constexpr Bandwidth<Space::dimension> default_bandwidth() {
     Bandwidth<Space::dimension> bandwidth{};
     for (std::size_t k = 0; k < Space::dimension; ++k) {

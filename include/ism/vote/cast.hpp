@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -11,18 +12,21 @@
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
-#include "ism/model/occurrence.hpp"
+#include "ism/model/shape_model.hpp"
 #include "ism/vote/vote.hpp"
 #include "ism/vote/vote_space.hpp"
 
 namespace ism {
 
-/// @brief Which votes can be of an object in the picture.
+/// @brief Which votes can be of an object in the image.
 struct VoteLimits {
-    double width = 0, height = 0;  ///< the centre lies in a picture of this size, pixels; 0 = anywhere
+    double width = 0, height = 0;  ///< the centre lies in an image of this size, pixels; 0 = anywhere
     double min_scale = 0;
     double max_scale = std::numeric_limits<double>::infinity();
     float min_weight = 0;  ///< lighter votes are dropped
+    /// Training objects first … end − 1 cast no votes, as if they had not been seen: the other occurrences of
+    /// a word have its whole weight.
+    std::uint32_t without_first = 0, without_end = 0;
 };
 
 namespace detail {
@@ -46,39 +50,58 @@ void sort_by_label(std::vector<Vote<Dimension>>& votes) {
     votes = std::move(sorted);
 }
 
+/// By how much the other occurrences of a word gain weight where some are left out; 0 where all are.
+template <std::predicate<const Occurrence&> LeftOut>
+[[nodiscard]] double weight_gain(std::span<const Occurrence> word, const LeftOut& left_out) {
+    double all = 0, rest = 0;
+    for (const Occurrence& o : word) {
+        all += o.weight;
+        if (!left_out(o)) rest += o.weight;
+    }
+    return rest > 0 ? all / rest : 0;
+}
+
 }  // namespace detail
 
 /// @brief Casts the votes of matched features: each through every occurrence of each of its words. Votes
 /// lighter than `min_weight` are dropped, and in a space that needs depth those of features without a
 /// reading.
+/// @param camera  of the image; null = not known
 /// @return the votes by label, then feature, word and occurrence
-template <AnyVoteSpace Space>
+template <VoteSpaceType Space>
 [[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(std::span<const Feature> features,
                                                              std::span<const Match> matches,
-                                                             const Shapes& shapes,
+                                                             const ShapeModel& shapes,
+                                                             const Camera* camera = nullptr,
                                                              const VoteLimits& limits = {}) {
     using V = Vote<Space::dimension>;
     std::vector<V> votes;
+    const auto left_out = [&](const Occurrence& o) {
+        return o.object >= limits.without_first && o.object < limits.without_end;
+    };
     for (const Match& match : matches) {
         const Feature& feature = features[match.feature];
         if (Space::needs_depth && !is_depth(feature.depth_m)) continue;
-        for (std::uint32_t i = shapes.first[match.word]; i < shapes.first[match.word + 1]; ++i) {
-            const Occurrence& occurrence = shapes.occurrences[i];
-            const float weight = match.weight * occurrence.weight;
-            if (weight < limits.min_weight) continue;
-            const double scale = scale_ratio(feature, occurrence);
+        const std::span<const Occurrence> word = shapes.occurrences[match.word];
+        const double gain = limits.without_end > 0 ? detail::weight_gain(word, left_out) : 1;
+        for (std::size_t k = 0; k < word.size(); ++k) {
+            const Occurrence& occurrence = word[k];
+            const float weight = match.weight * static_cast<float>(occurrence.weight * gain);
+            if (weight < limits.min_weight || (limits.without_end > 0 && left_out(occurrence))) continue;
+            const VoteSource source{feature, occurrence, shapes.objects[occurrence.object], camera,
+                                    placement(feature, occurrence)};
+            const auto& [centre, scale, angle] = source.placement;
             if (scale < limits.min_scale || scale > limits.max_scale) continue;
-            if (limits.width > 0) {
-                const double x = X::vote(feature, occurrence), y = Y::vote(feature, occurrence);
-                if (x < 0 || y < 0 || x >= limits.width || y >= limits.height) continue;
-            }
-            const V vote{.at = Space::position(feature, occurrence),
+            if (limits.width > 0 &&
+                (centre.x < 0 || centre.y < 0 || centre.x >= limits.width || centre.y >= limits.height))
+                continue;
+            const V vote{.at = Space::position(source),
                          .scale = static_cast<float>(scale),
                          .weight = weight,
-                         .label = Space::label(feature, occurrence),
+                         .label = Space::label(source),
                          .feature = match.feature,
                          .word = match.word,
-                         .occurrence = i};
+                         .occurrence = shapes.occurrences.first(match.word) + static_cast<std::uint32_t>(k)};
             if (is_usable(vote)) votes.push_back(vote);
         }
     }

@@ -45,12 +45,12 @@ void keep_strongest(std::vector<Mode<Dimension>>& modes, std::size_t most, doubl
 /// strongest. Labels are searched by falling weight of all their votes, which no mode of theirs can exceed;
 /// where that is too little for a place among the strongest, the search is over.
 /// @param labels   the votes of each label, as split_by_label() gives them
-/// @param threads  0 = all the machine has; the result is the same for any number
+/// @param pool    the result is the same for any number of threads
 /// @throws Error as find_modes() does
 template <Kernel K, std::size_t Dimension>
 [[nodiscard]] std::vector<Mode<Dimension>> strongest_modes(
     std::span<const std::span<const Vote<Dimension>>> labels, const Bandwidth<Dimension>& bandwidth,
-    const MeanShiftOptions& options, std::size_t most, double keep, unsigned threads) {
+    const MeanShiftOptions& options, std::size_t most, double keep, ThreadPool& pool) {
     std::vector<double> weight(labels.size(), 0);
     std::vector<std::uint32_t> order(labels.size());
     for (std::uint32_t l = 0; l < labels.size(); ++l) {
@@ -64,8 +64,6 @@ template <Kernel K, std::size_t Dimension>
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return weight[a] > weight[b]; });
 
-    ThreadPool pool(
-        unsigned(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(1, labels.size()))));
     std::vector<MeanShiftMemory<Dimension>> memory(pool.size());
     std::vector<Mode<Dimension>> strongest;
     std::size_t at_once = 16;  // not the number of threads, on which the result must not depend

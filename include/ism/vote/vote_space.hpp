@@ -56,21 +56,21 @@ public:
     }
 
     /// @brief Where in this space a feature votes through an occurrence.
-    [[nodiscard]] static Position position(const Feature& f, const Occurrence& o) {
+    [[nodiscard]] static Position position(const VoteSource& source) {
         Position at;
         std::size_t k = 0;
         auto add = [&]<class A>(std::type_identity<A>) {
-            if constexpr (ContinuousAxis<A>) at[k++] = static_cast<float>(A::vote(f, o));
+            if constexpr (ContinuousAxis<A>) at[k++] = static_cast<float>(A::vote(source));
         };
         (add(std::type_identity<Axes>{}), ...);
         return at;
     }
 
     /// @brief The discrete coordinate; 0 for all votes where there is none.
-    [[nodiscard]] static std::uint32_t label(const Feature& f, const Occurrence& o) {
+    [[nodiscard]] static std::uint32_t label(const VoteSource& source) {
         std::uint32_t value = 0;
         auto add = [&]<class A>(std::type_identity<A>) {
-            if constexpr (!ContinuousAxis<A>) value = A::label(f, o);
+            if constexpr (!ContinuousAxis<A>) value = A::label(source);
         };
         (add(std::type_identity<Axes>{}), ...);
         return value;
@@ -86,7 +86,7 @@ inline constexpr bool is_vote_space<VoteSpace<Axes...>> = true;
 
 /// @brief A VoteSpace of any axes.
 template <class S>
-concept AnyVoteSpace = detail::is_vote_space<S>;
+concept VoteSpaceType = detail::is_vote_space<S>;
 
 using Ism = VoteSpace<X, Y, Scale>;                   ///< Eq 2; classes, if several, are pooled
 using Jism = VoteSpace<X, Y, Scale, Class>;           ///< Eq 5

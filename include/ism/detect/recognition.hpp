@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ism/core/stopwatch.hpp"
+#include "ism/detect/detect_options.hpp"
+#include "ism/detect/detection.hpp"
+#include "ism/detect/hypotheses.hpp"
+#include "ism/detect/rescore.hpp"
+#include "ism/detect/scene.hpp"
+#include "ism/detect/segment.hpp"
+#include "ism/detect/verify.hpp"
+#include "ism/vote/bandwidth.hpp"
+#include "ism/vote/kernel.hpp"
+#include "ism/vote/vote_space.hpp"
+
+namespace ism {
+
+/// @brief How objects are recognised: a row of policies, each with its options as members.
+/// @tparam Space  the vote space: Ism, Jism, Ji3sm1, Ji3sm2, Ji3sm3 or one of your own
+template <VoteSpaceType Space = Jism, Kernel K = EpanechnikovKernel, Rescorer R = BoxClassifierScore,
+          Segmenter S = PatchSegmenter, Verifier V = Mdl>
+struct Recognition {
+    DetectOptions options = {};
+    Bandwidth<Space::dimension> bandwidth = default_bandwidth<Space>();
+    R rescorer = {};
+    S segmenter = {};
+    V verifier = {};
+};
+
+namespace detail {
+
+template <class Policy>
+void check_policy(const Policy& policy) {
+    if constexpr (requires { check(policy); }) check(policy);
+}
+
+/// From hypotheses on: the same code for every vote space.
+template <Rescorer R, Segmenter S, Verifier V>
+[[nodiscard]] Detections judge_hypotheses(Scene scene, std::vector<Detection> hypotheses,
+                                          const DetectOptions& options, const R& rescorer, const S& segmenter,
+                                          const V& verifier, DetectionStats stats) {
+    const auto stronger = [](const Detection& a, const Detection& b) { return a.score > b.score; };
+    Stopwatch watch;
+    hypotheses = rescorer.rescore(std::move(hypotheses), scene);
+    std::stable_sort(hypotheses.begin(), hypotheses.end(), stronger);
+    stats.candidates = hypotheses.size();
+    if (hypotheses.size() > options.max_hypotheses) hypotheses.resize(options.max_hypotheses);
+    for (Detection& hypothesis : hypotheses)
+        hypothesis.probability =
+            scene.model.calibration.probability(hypothesis.class_index, hypothesis.score);
+    stats.segmented = hypotheses.size();
+    stats.rescore_ms = watch.lap_ms();
+    scene.pool.for_each(hypotheses.size(), [&](std::size_t i, unsigned) {
+        hypotheses[i].segmentation = segmenter.segment(hypotheses[i], scene);
+    });
+    stats.segment_ms = watch.lap_ms();
+    Detections result;
+    for (const Verified& verified : verifier.verify(std::span<const Detection>(hypotheses), scene)) {
+        result.objects.push_back(std::move(hypotheses[verified.index]));
+        result.objects.back().score = verified.score;
+    }
+    std::stable_sort(result.objects.begin(), result.objects.end(), stronger);
+    std::erase_if(result.objects, [&](const Detection& object) {
+        return object.score < options.min_relative_score * result.objects.front().score;
+    });
+    stats.verify_ms = watch.lap_ms();
+    result.features = std::move(scene.features);
+    result.stats = stats;
+    return result;
+}
+
+}  // namespace detail
+
+/// @brief Validates options and policies, and whether a frame has what the vote space needs.
+/// @throws Error for an option out of range, or a space that needs depth where the frame has none.
+template <VoteSpaceType Space, Kernel K, Rescorer R, Segmenter S, Verifier V>
+void check(const Recognition<Space, K, R, S, V>& recognition, const Frame& frame) {
+    check(recognition.options);
+    check(recognition.bandwidth);
+    detail::check_policy(recognition.rescorer);
+    detail::check_policy(recognition.segmenter);
+    detail::check_policy(recognition.verifier);
+    expect(!Space::needs_depth || !frame.depth_m.empty(), "depth image",
+           "one, since the vote space uses depth", "none");
+}
+
+/// @brief Recognises the objects of a scene: votes, mean shift, rescoring, segmentation, verification.
+/// @throws Error as check(Recognition, Frame) does, and for a model without training objects.
+template <VoteSpaceType Space, Kernel K, Rescorer R, Segmenter S, Verifier V>
+[[nodiscard]] Detections recognise(Scene scene, const Recognition<Space, K, R, S, V>& recognition) {
+    check(recognition, scene.frame);
+    expect(!scene.model.shapes.objects.empty(), "detection: training objects of the model", "1 or more", 0);
+    DetectionStats stats{.features = scene.features.size(),
+                         .matches = scene.matches.size(),
+                         .extract_ms = scene.extract_ms,
+                         .match_ms = scene.match_ms};
+    Stopwatch watch;
+    const DetectOptions& options = recognition.options;
+    const auto votes = cast_votes<Space>(scene, options.matching, vote_limits(scene, options));
+    auto hypotheses = find_hypotheses<K, Space::dimension>(scene, votes, recognition.bandwidth, options);
+    stats.votes = votes.size();
+    stats.hypotheses = hypotheses.size();
+    stats.vote_ms = watch.lap_ms();
+    return detail::judge_hypotheses(std::move(scene), std::move(hypotheses), options, recognition.rescorer,
+                                    recognition.segmenter, recognition.verifier, stats);
+}
+
+}  // namespace ism

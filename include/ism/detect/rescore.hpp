@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "ism/detect/detection.hpp"
+#include "ism/detect/scene.hpp"
+#include "ism/model/box_classifier.hpp"
+
+namespace ism {
+
+/// @brief Judges hypotheses by more than their votes. To model it, write a small struct with its options as
+/// members and `std::vector<Detection> rescore(std::vector<Detection>, const Scene&) const`, which gives new
+/// scores, and may also drop hypotheses, add some, or move their boxes. What it learns in training it reads
+/// from the scene's model.
+template <class R>
+concept Rescorer = std::copyable<R> &&
+    requires(const R& rescorer, std::vector<Detection> hypotheses, const Scene& scene) {
+    { rescorer.rescore(std::move(hypotheses), scene) } -> std::same_as<std::vector<Detection>>;
+};
+
+/// @brief Leaves hypotheses with the score of their votes (the paper's way).
+struct NoRescorer {
+    [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene&) const {
+        return hypotheses;
+    }
+};
+
+/// @brief Multiplies the score of a hypothesis by the probability that its box shows its class, where the
+/// model has a classifier of boxes.
+struct BoxClassifierScore {
+    [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses,
+                                                 const Scene& scene) const {
+        const BoxClassifier& classifier = scene.model.box_classifier;
+        if (classifier.empty()) return hypotheses;
+        const std::size_t words = scene.model.words();
+        scene.pool.for_each(hypotheses.size(), [&](std::size_t i, unsigned) {
+            const auto histogram = word_histogram(scene.features, scene.matches, words, hypotheses[i].box);
+            hypotheses[i].score *= classifier.probability(hypotheses[i].class_index, histogram);
+        });
+        return hypotheses;
+    }
+};
+
+/// @brief Several rescorers, one after another.
+template <Rescorer... Parts>
+struct RescorerChain {
+    std::tuple<Parts...> parts = {};
+
+    [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses,
+                                                 const Scene& scene) const {
+        std::apply(
+            [&](const Parts&... part) { ((hypotheses = part.rescore(std::move(hypotheses), scene)), ...); },
+            parts);
+        return hypotheses;
+    }
+};
+
+}  // namespace ism

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "ism/codebook/codebook.hpp"
+#include "ism/core/frame.hpp"
+#include "ism/core/thread_pool.hpp"
+#include "ism/feature/feature.hpp"
+#include "ism/model/model.hpp"
+
+namespace ism {
+
+/// @brief A frame with its features and the words they look like: all that hypotheses are found, judged and
+/// cut out from, and what every policy of detection sees. FrameMatcher makes it.
+struct Scene {
+    const Frame& frame;
+    const Model& model;
+    ThreadPool& pool;               ///< works on this scene alone; not to be used within one of its loops
+    std::vector<Feature> features;  ///< of all channels, with depth where the frame has depth
+    std::vector<Match> matches;     ///< all words within the threshold, by feature
+    double extract_ms = 0, match_ms = 0;  ///< what it took to find features and matches
+};
+
+}  // namespace ism

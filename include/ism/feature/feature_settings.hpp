@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "ism/core/error.hpp"
+#include "ism/feature/extractor.hpp"
+
+namespace ism {
+
+/// @brief An option of a detector or a descriptor by name.
+struct Parameter {
+    std::string name;
+    std::variant<bool, std::int64_t, double> value;
+    [[nodiscard]] bool operator==(const Parameter&) const = default;
+};
+
+/// @brief How features are found and described, as data: an Extractor whose types are names. Whatever comes
+/// after the features needs no more of detector and descriptor than this.
+struct FeatureSettings {
+    std::string detector, descriptor;  ///< D::name, Desc::name
+    std::size_t dimension = 0;         ///< numbers of a descriptor
+    double sq_length = 1;              ///< squared length of a typical descriptor, see Descriptor
+    std::vector<Parameter> detector_parameters = {}, descriptor_parameters = {};
+    ExtractOptions options = {};
+};
+
+namespace detail {
+
+/// Stands for any visitor where a concept asks for one.
+struct AnyVisitor {
+    template <class T>
+    void operator()(const char*, T&) const {}
+};
+
+struct ListParameters {
+    std::vector<Parameter>& list;
+
+    template <class T>
+    requires std::integral<T> || std::floating_point<T>
+    void operator()(const char* name, const T& value) const {
+        if constexpr (std::same_as<T, bool>)
+            list.push_back({name, value});
+        else if constexpr (std::integral<T>)
+            list.push_back({name, std::int64_t(value)});
+        else
+            list.push_back({name, double(value)});
+    }
+};
+
+struct SetParameters {
+    const std::vector<Parameter>& list;
+    const std::string& part;
+    std::size_t count = 0;
+
+    template <class T>
+    requires std::integral<T> || std::floating_point<T>
+    void operator()(const char* name, T& value) {
+        const auto found =
+            std::find_if(list.begin(), list.end(), [&](const Parameter& p) { return p.name == name; });
+        expect(found != list.end(), lazy_text(part, ": parameter"), name, "none of this name");
+        ++count;
+        const bool fits = std::visit([&](const auto& given) { return set(value, given); }, found->value);
+        expect(fits, lazy_text(part, ": ", name), "a value of its kind", "another");
+    }
+
+    template <class T, class Given>
+    [[nodiscard]] static bool set(T& value, const Given& given) {
+        bool fits = std::same_as<T, bool> == std::same_as<Given, bool>;
+        if constexpr (std::integral<T> && !std::same_as<T, bool> && std::same_as<Given, std::int64_t>)
+            fits = std::in_range<T>(given);
+        else if constexpr (std::integral<T> && std::floating_point<Given>)
+            fits = false;
+        else if constexpr (std::floating_point<T>)
+            fits = fits && std::abs(double(given)) <= double(std::numeric_limits<T>::max());
+        if (fits) value = static_cast<T>(given);
+        return fits;
+    }
+};
+
+}  // namespace detail
+
+/// @brief A detector or descriptor whose options can be kept as data: it has none (an empty struct), or
+/// `static void each_parameter(self, visit)` calls visit(name, member) for each, in a fixed order.
+template <class T>
+concept HasParameters = std::is_empty_v<T> || requires(T& self) {
+    T::each_parameter(self, detail::AnyVisitor{});
+};
+
+namespace detail {
+
+template <HasParameters T>
+[[nodiscard]] std::vector<Parameter> parameters_of(const T& part) {
+    std::vector<Parameter> list;
+    if constexpr (!std::is_empty_v<T>) T::each_parameter(part, ListParameters{list});
+    return list;
+}
+
+template <HasParameters T>
+[[nodiscard]] T with_parameters(const std::vector<Parameter>& list, const std::string& name) {
+    T part;
+    SetParameters set{list, name};
+    if constexpr (!std::is_empty_v<T>) T::each_parameter(part, set);
+    expect(set.count == list.size(), lazy_text(name, ": number of parameters"), set.count, list.size());
+    return part;
+}
+
+}  // namespace detail
+
+/// @brief An extractor as data.
+template <Detector D, Descriptor Desc>
+[[nodiscard]] FeatureSettings settings_of(const Extractor<D, Desc>& extractor) {
+    static_assert(HasParameters<D>, "a detector with options has a static each_parameter(self, visit)");
+    static_assert(HasParameters<Desc>, "a descriptor with options has a static each_parameter(self, visit)");
+    return {.detector = std::string(D::name),
+            .descriptor = std::string(Desc::name),
+            .dimension = Desc::dimension,
+            .sq_length = Desc::sq_length,
+            .detector_parameters = detail::parameters_of(extractor.detector),
+            .descriptor_parameters = detail::parameters_of(extractor.descriptor),
+            .options = extractor.options};
+}
+
+/// @brief The extractor of these types that settings tell of; the reverse of settings_of().
+/// @throws Error where they tell of another detector or descriptor, or of other parameters.
+template <Detector D, Descriptor Desc>
+[[nodiscard]] Extractor<D, Desc> extractor_from(const FeatureSettings& settings) {
+    expect(settings.detector == D::name, "detector", D::name, settings.detector);
+    expect(settings.descriptor == Desc::name, "descriptor", Desc::name, settings.descriptor);
+    expect(settings.dimension == Desc::dimension, "descriptor dimension", Desc::dimension,
+           settings.dimension);
+    return {.detector = detail::with_parameters<D>(settings.detector_parameters, settings.detector),
+            .descriptor = detail::with_parameters<Desc>(settings.descriptor_parameters, settings.descriptor),
+            .options = settings.options};
+}
+
+}  // namespace ism

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace ism {
+
+/// @brief Turns scores into probabilities, which can be compared between images and classes: for each class a
+/// logistic curve over the logarithm of the score (Platt 1999). Empty = not known.
+struct Calibration {
+    /// @brief p = 1 / (1 + exp(−(slope · log(score) + offset)))
+    struct Curve {
+        double slope = 0, offset = 0;
+        [[nodiscard]] bool operator==(const Curve&) const = default;
+    };
+
+    std::vector<Curve> curves;  ///< one a class
+
+    [[nodiscard]] bool empty() const { return curves.empty(); }
+
+    /// @brief The probability, 0 … 1, that a hypothesis of a class with this score shows an object of it; NaN
+    /// where it is not known.
+    [[nodiscard]] double probability(std::size_t class_index, double score) const {
+        if (empty()) return std::nan("");
+        if (!(score > 0)) return 0;
+        const Curve& curve = curves[class_index];
+        return 1 / (1 + std::exp(-(curve.slope * std::log(score) + curve.offset)));
+    }
+};
+
+}  // namespace ism

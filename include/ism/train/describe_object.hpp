@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ism/core/camera.hpp"
+#include "ism/core/frame.hpp"
+#include "ism/core/geometry.hpp"
+#include "ism/feature/feature.hpp"
+#include "ism/model/occurrence.hpp"
+#include "ism/model/training_object.hpp"
+#include "ism/train/training_image.hpp"
+
+/// One labelled object, brought to the reference size.
+namespace ism {
+
+/// @brief The mask of an object, or its box as one.
+/// @param width, height  of the image
+[[nodiscard]] inline Mask object_mask(const LabelledObject& object, int width, int height) {
+    if (!object.mask.empty()) return object.mask;
+    Mask mask(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            mask(x, y) = x + 0.5 >= object.box.x && x + 0.5 <= object.box.x + object.box.width &&
+                         y + 0.5 >= object.box.y && y + 0.5 <= object.box.y + object.box.height;
+    return mask;
+}
+
+/// @brief An object at the reference size.
+/// @param mask   of the image's size
+/// @param image  name of the image
+[[nodiscard]] inline TrainingObject describe_object(const ObjectLabel& label, const Mask& mask,
+                                                    const std::string& image) {
+    const Box& box = label.box;
+    const double size_px = std::sqrt(box.area()), to_reference = reference_size_px / size_px;
+    TrainingObject result{.class_index = label.class_index,
+                          .width = static_cast<float>(box.width * to_reference),
+                          .height = static_cast<float>(box.height * to_reference),
+                          .size_px = static_cast<float>(size_px),
+                          .mask = {},
+                          .image = image};
+    const auto cells = [](double side_px) {
+        constexpr double most_cells = 4096;  // of very thin boxes
+        return static_cast<int>(std::lround(std::clamp(side_px / mask_cell_px, 1.0, most_cells)));
+    };
+    const int columns = cells(result.width), rows = cells(result.height);
+    result.mask = Mask(columns, rows);
+    constexpr int samples = 3;  // a side of a cell
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            int figure = 0;
+            for (int sub = 0; sub < samples * samples; ++sub) {
+                const double u = (column + (sub % samples + 0.5) / samples) / columns;
+                const double v = (row + (sub / samples + 0.5) / samples) / rows;
+                const int x = static_cast<int>(std::floor(box.x + u * box.width));
+                const int y = static_cast<int>(std::floor(box.y + v * box.height));
+                figure += mask.contains(x, y) && mask(x, y) != 0;
+            }
+            result.mask(column, row) = static_cast<std::uint8_t>(255 * figure / (samples * samples));
+        }
+    return result;
+}
+
+/// @brief Median depth of an object's figure, metres; no_depth without readings.
+/// @param mask  of the image's size
+[[nodiscard]] inline float object_depth(const Frame& frame, const Mask& mask) {
+    std::vector<float> readings;
+    for (int y = 0; y < frame.depth_m.height(); ++y)
+        for (int x = 0; x < frame.depth_m.width(); ++x)
+            if (mask(x, y) != 0 && is_depth(frame.depth_m(x, y))) readings.push_back(frame.depth_m(x, y));
+    if (readings.empty()) return no_depth;
+    const auto middle = readings.begin() + std::ptrdiff_t(readings.size() / 2);
+    std::nth_element(readings.begin(), middle, readings.end());
+    return *middle;
+}
+
+/// @brief Indices of the features on a mask, in order.
+[[nodiscard]] inline std::vector<std::size_t> features_on(const Mask& mask,
+                                                          std::span<const Feature> features) {
+    std::vector<std::size_t> on;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+        const int x = static_cast<int>(std::lround(features[i].x)),
+                  y = static_cast<int>(std::lround(features[i].y));
+        if (mask.contains(x, y) && mask(x, y) != 0) on.push_back(i);
+    }
+    return on;
+}
+
+/// @brief The `most` strongest of some features, in order.
+[[nodiscard]] inline std::vector<std::size_t> strongest(std::vector<std::size_t> chosen,
+                                                        std::span<const Feature> features, std::size_t most) {
+    if (chosen.size() <= most) return chosen;
+    std::stable_sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
+        return features[a].strength > features[b].strength;
+    });
+    chosen.resize(most);
+    std::sort(chosen.begin(), chosen.end());
+    return chosen;
+}
+
+}  // namespace ism

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ism/core/progress.hpp"
+#include "ism/core/thread_pool.hpp"
+#include "ism/feature/any_extractor.hpp"
+#include "ism/feature/depth.hpp"
+#include "ism/train/describe_object.hpp"
+#include "ism/train/train_options.hpp"
+#include "ism/train/training_features.hpp"
+#include "ism/train/training_set.hpp"
+#include "ism/vote/placement.hpp"
+
+namespace ism {
+
+/// @brief How much images should be enlarged before features are searched, so that the middle one of the
+/// objects has enough of them: small objects are brought to 150 px, large ones stay.
+/// @param sizes_px  roots of the boxes' areas, at least one
+[[nodiscard]] inline double choose_upsampling(std::vector<double> sizes_px) {
+    constexpr double wanted_px = 150, most = 4;
+    const auto middle = sizes_px.begin() + std::ptrdiff_t(sizes_px.size() / 2);
+    std::nth_element(sizes_px.begin(), middle, sizes_px.end());
+    return std::clamp(wanted_px / *middle, 1.0, most);
+}
+
+namespace detail {
+
+/// Finds the features of one training image after another.
+class TrainingExtractor {
+public:
+    explicit TrainingExtractor(std::span<const AnyExtractor> extractors) {
+        for (const AnyExtractor& extractor : extractors) channels_.push_back(extractor.start(pool_));
+    }
+
+    /// All features of an image, with depth where it has depth.
+    [[nodiscard]] TrainingView view(const TrainingImage& image) {
+        TrainingView view{.width = image.frame.gray.width(), .height = image.frame.gray.height()};
+        for (const LabelledObject& object : image.objects) view.labels.push_back(object.label());
+        view.end_object = static_cast<std::uint32_t>(image.objects.size());
+        for (const ExtractFeatures& extract : channels_) {
+            view.channels.push_back(extract(image.frame));
+            std::vector<Feature>& features = view.channels.back().features;
+            if (!image.frame.depth_m.empty()) features = with_depth(std::move(features), image.frame.depth_m);
+        }
+        return view;
+    }
+
+private:
+    ThreadPool pool_{1};
+    std::vector<ExtractFeatures> channels_;
+};
+
+/// What the objects of one image add; they are numbered within the image.
+/// @param most  features of an object in a channel
+[[nodiscard]] inline TrainingFeatures object_features(const TrainingImage& image, const TrainingView& view,
+                                                      std::size_t most) {
+    TrainingFeatures result;
+    for (const auto& channel : view.channels)
+        result.samples.push_back({{}, Descriptors<float>(channel.descriptors.dimension())});
+    for (const LabelledObject& object : image.objects) {
+        const Mask mask = object_mask(object, view.width, view.height);
+        const float depth_m = image.frame.depth_m.empty() ? no_depth : object_depth(image.frame, mask);
+        const Placement lies{object.box.centre(), std::sqrt(object.box.area()) / reference_size_px, 0};
+        for (std::size_t c = 0; c < view.channels.size(); ++c) {
+            const auto& [features, descriptors] = view.channels[c];
+            const std::vector<std::size_t> on = features_on(mask, features);
+            const std::vector<std::size_t> used = strongest(on, features, most);
+            result.summary.features_found += on.size();
+            result.summary.features_used += used.size();
+            for (const std::size_t i : used) {
+                Occurrence o = as_occurrence(features[i], lies);
+                o.depth_m = features[i].depth_m - depth_m;
+                o.class_index = object.class_index;
+                o.object = static_cast<std::uint32_t>(result.objects.size());
+                result.samples[c].occurrences.push_back(o);
+                result.samples[c].descriptors.push_back(descriptors.row(i));
+            }
+        }
+        result.objects.push_back(describe_object(object.label(), mask, image.name));
+    }
+    return result;
+}
+
+/// Joins what the images gave, in their order.
+[[nodiscard]] inline TrainingFeatures join_images(TrainingFeatures all, std::vector<TrainingFeatures> parts) {
+    for (TrainingFeatures& part : parts) {
+        const auto objects = static_cast<std::uint32_t>(all.objects.size());
+        for (std::size_t c = 0; c < part.samples.size(); ++c)
+            for (std::size_t i = 0; i < part.samples[c].occurrences.size(); ++i) {
+                Occurrence o = part.samples[c].occurrences[i];
+                o.object += objects;
+                all.samples[c].occurrences.push_back(o);
+                all.samples[c].descriptors.push_back(part.samples[c].descriptors.row(i));
+            }
+        std::move(part.objects.begin(), part.objects.end(), std::back_inserter(all.objects));
+        for (TrainingView& view : part.views) {
+            view.first_object += objects, view.end_object += objects;
+            all.views.push_back(std::move(view));
+        }
+        all.summary.features_found += part.summary.features_found;
+        all.summary.features_used += part.summary.features_used;
+        part = {};
+    }
+    std::uint32_t feature = 0;
+    for (TrainingSamples& channel : all.samples)
+        for (Occurrence& o : channel.occurrences) o.feature = feature++;
+    return all;
+}
+
+}  // namespace detail
+
+/// @brief Finds and describes the features of training images; each image is read once. Small objects are
+/// enlarged before, as all labels together ask, unless `choose_upsampling` is off.
+/// @param extractors  one for each channel of words
+/// @throws Error where an image cannot be learnt from, or a class has no object or no feature.
+[[nodiscard]] inline TrainingFeatures extract_training_features(
+    std::span<const std::string> class_names, const TrainingSet& set, std::vector<AnyExtractor> extractors,
+    const TrainingFeatureOptions& options = {}, unsigned threads = 0, const Progress& progress = {}) {
+    const std::size_t classes = class_names.size();
+    expect(classes > 0, "training: number of classes", "1 or more", 0);
+    expect(set.size > 0, "training: number of images", "1 or more", 0);
+    expect(!extractors.empty(), "training: number of extractors", "1 or more", 0);
+    expect(options.max_features > 0, "TrainingFeatureOptions::max_features", "1 or more", 0);
+
+    std::vector<double> sizes_px;
+    std::vector<std::size_t> objects_of(classes, 0), features_of(classes, 0);
+    for (std::size_t i = 0; i < set.size; ++i)
+        for (const ObjectLabel& label : set.labels(i)) {
+            // What is wrong with a label is said with its image.
+            if (label.class_index >= classes || !(label.box.area() > 0)) continue;
+            sizes_px.push_back(std::sqrt(label.box.area()));
+            ++objects_of[label.class_index];
+        }
+    for (std::size_t c = 0; c < classes; ++c)
+        expect(objects_of[c] > 0, lazy_text("training: objects of class ", class_names[c]), "1 or more", 0);
+    if (options.choose_upsampling)
+        for (AnyExtractor& extractor : extractors)
+            extractor.options().upsampling *= choose_upsampling(sizes_px);
+
+    const std::size_t most = std::max<std::size_t>(30, options.max_features / sizes_px.size());
+    ThreadPool pool(unsigned(std::min<std::size_t>(thread_count(threads), set.size)));
+    std::vector<std::unique_ptr<detail::TrainingExtractor>> workers(pool.size());
+    std::vector<TrainingFeatures> parts(set.size);
+    ProgressCounter counter(progress, "extracting features", set.size);
+    pool.for_each(set.size, [&](std::size_t i, unsigned worker) {
+        TrainingImage image = set.image(i);
+        check(image, classes);
+        if (!workers[worker]) workers[worker] = std::make_unique<detail::TrainingExtractor>(extractors);
+        if (options.views || !image.objects.empty()) {
+            TrainingView view = workers[worker]->view(image);
+            parts[i] = detail::object_features(image, view, most);
+            if (options.views) parts[i].views.push_back(std::move(view));
+            if (options.views && options.mirror)
+                parts[i].views.push_back(workers[worker]->view(mirrored(std::move(image))));
+        }
+        counter.step();
+    });
+
+    TrainingFeatures all{.class_names = {class_names.begin(), class_names.end()}};
+    for (const AnyExtractor& extractor : extractors) {
+        all.settings.push_back(extractor.settings());
+        all.samples.push_back({{}, Descriptors<float>(extractor.settings().dimension)});
+    }
+    all.summary.images = set.size;
+    all = detail::join_images(std::move(all), std::move(parts));
+    for (const TrainingSamples& channel : all.samples)
+        for (const Occurrence& o : channel.occurrences) ++features_of[o.class_index];
+    for (std::size_t c = 0; c < classes; ++c)
+        expect(features_of[c] > 0, lazy_text("training: features on objects of class ", class_names[c]),
+               "1 or more", 0);
+    return all;
+}
+
+}  // namespace ism

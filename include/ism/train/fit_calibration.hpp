@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ism/model/calibration.hpp"
+#include "ism/train/fit_box_classifier.hpp"
+#include "ism/train/train_options.hpp"
+#include "ism/train/training_boxes.hpp"
+
+namespace ism {
+
+/// @brief A score, and whether it was that of a true positive.
+struct ScoredExample {
+    double score = 0;
+    bool positive = false;
+};
+
+/// @brief Fits a logistic curve over the logarithm of scores (Platt 1999, with his targets of
+/// (N₊ + 1)/(N₊ + 2) and 1/(N₋ + 2), by Newton's method). Examples without score, and lists without both
+/// kinds, tell nothing of the slope: then the curve is flat at the share of positives.
+[[nodiscard]] inline Calibration::Curve fit_curve(std::span<const ScoredExample> examples) {
+    double positives = 0, negatives = 0;
+    for (const ScoredExample& e : examples) (e.positive ? positives : negatives) += e.score > 0;
+    const double high = (positives + 1) / (positives + 2), low = 1 / (negatives + 2);
+    Calibration::Curve curve{.slope = 0, .offset = std::log((positives + 1) / (negatives + 1))};
+    if (positives == 0 || negatives == 0) return curve;
+    const auto loss = [&](const Calibration::Curve& at) {
+        double sum = 0;
+        for (const ScoredExample& e : examples) {
+            if (!(e.score > 0)) continue;
+            const double z = at.slope * std::log(e.score) + at.offset, target = e.positive ? high : low;
+            sum +=
+                z >= 0 ? (1 - target) * z + std::log1p(std::exp(-z)) : -target * z + std::log1p(std::exp(z));
+        }
+        return sum;
+    };
+    double now = loss(curve);
+    for (int step = 0; step < 100; ++step) {
+        double ga = 0, gb = 0, haa = 1e-9, hab = 0, hbb = 1e-9;
+        for (const ScoredExample& e : examples) {
+            if (!(e.score > 0)) continue;
+            const double x = std::log(e.score), z = curve.slope * x + curve.offset;
+            const double p = 1 / (1 + std::exp(-z)), error = p - (e.positive ? high : low), w = p * (1 - p);
+            ga += error * x, gb += error;
+            haa += w * x * x, hab += w * x, hbb += w;
+        }
+        const double determinant = haa * hbb - hab * hab;
+        if (!(determinant > 0)) break;
+        const double da = (hbb * ga - hab * gb) / determinant, db = (haa * gb - hab * ga) / determinant;
+        bool better = false;
+        for (double length = 1; length > 1e-6 && !better; length /= 2) {
+            const Calibration::Curve next{curve.slope - length * da, curve.offset - length * db};
+            if (const double there = loss(next); there < now - 1e-12)
+                curve = next, now = there, better = true;
+        }
+        if (!better) break;
+    }
+    return curve;
+}
+
+/// @brief Learns how scores become probabilities, from hypotheses that were found without votes of their own
+/// image, judged by classifiers of boxes that were fitted without it (two halves of the images take turns). A
+/// class with few examples has the curve of all classes.
+/// @param boxes    of training_boxes()
+/// @param view_of  number of the image a view shows, its mirror image too
+[[nodiscard]] inline Calibration fit_calibration(std::span<const TrainingBox> boxes,
+                                                 std::span<const std::size_t> image_of_view,
+                                                 std::size_t words, std::size_t classes,
+                                                 const TrainOptions& options) {
+    constexpr std::size_t least = 8;  // of each kind for a curve of its own
+    std::array<std::vector<TrainingBox>, 2> halves;
+    for (const TrainingBox& box : boxes) halves[image_of_view[box.view] % 2].push_back(box);
+    std::vector<std::vector<ScoredExample>> of_class(classes);
+    std::vector<ScoredExample> all;
+    for (const std::size_t half : {0u, 1u}) {
+        BoxClassifier classifier;
+        if (options.box_classifier)
+            classifier = fit_box_classifier(halves[1 - half], words, classes, *options.box_classifier,
+                                            options.threads);
+        for (const TrainingBox& box : halves[half]) {
+            if (!box.is_hypothesis()) continue;
+            const double score = box.score * classifier.probability(box.predicted_class, box.histogram);
+            const bool positive = box.true_class == box.predicted_class && box.overlap >= 0.5;
+            of_class[box.predicted_class].push_back({score, positive});
+            all.push_back({score, positive});
+        }
+    }
+    const auto enough = [&](std::span<const ScoredExample> examples) {
+        std::size_t positives = 0;
+        for (const ScoredExample& e : examples) positives += e.positive;
+        return positives >= least && examples.size() - positives >= least;
+    };
+    Calibration calibration;
+    const Calibration::Curve common = fit_curve(all);
+    for (std::size_t c = 0; c < classes; ++c)
+        calibration.curves.push_back(enough(of_class[c]) ? fit_curve(of_class[c]) : common);
+    return calibration;
+}
+
+}  // namespace ism

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ism/codebook/match.hpp"
+#include "ism/model/model.hpp"
+#include "ism/train/fit_box_classifier.hpp"
+#include "ism/train/fit_calibration.hpp"
+#include "ism/train/learn_words.hpp"
+#include "ism/train/occurrence_weights.hpp"
+#include "ism/train/select_words.hpp"
+#include "ism/train/train_options.hpp"
+#include "ism/train/training_boxes.hpp"
+#include "ism/train/training_features.hpp"
+
+namespace ism {
+
+namespace detail {
+
+/// Words of each channel, and at each the training features that match it.
+[[nodiscard]] inline Model learn_occurrences(const TrainingFeatures& features, const TrainOptions& options) {
+    Model model{.channels = {},
+                .shapes = {.class_names = features.class_names, .objects = features.objects},
+                .training = features.summary};
+    std::vector<Occurrence> seen;
+    std::vector<Match> matches;
+    for (std::size_t c = 0; c < features.settings.size(); ++c) {
+        const TrainingSamples& samples = features.samples[c];
+        const double max_sq_distance =
+            2 * (1 - options.codebook.min_similarity) * features.settings[c].sq_length;
+        if (options.progress) options.progress("clustering", c, features.settings.size());
+        model.channels.push_back(
+            {features.settings[c], learn_words(samples, features.class_names.size(), max_sq_distance,
+                                               options.codebook, options.threads)});
+        if (options.progress) options.progress("clustering", c + 1, features.settings.size());
+        const Codebook& codebook = model.channels[c].codebook;
+        const auto first_word = static_cast<std::uint32_t>(model.first_word(c));
+        for (Match match : match(codebook, samples.descriptors, options.threads)) {
+            const bool own_class =
+                codebook.groups()[match.word] == samples.occurrences[match.feature].class_index;
+            if (options.codebook.kind == CodebookKind::per_class && !own_class) continue;
+            match.feature += static_cast<std::uint32_t>(seen.size());
+            match.word += first_word;
+            matches.push_back(match);
+        }
+        seen.insert(seen.end(), samples.occurrences.begin(), samples.occurrences.end());
+    }
+    model.shapes.occurrences = group_by_word(seen, matches, model.words());
+    weigh_occurrences(model.shapes);
+    return model;
+}
+
+/// The words that the options ask for.
+[[nodiscard]] inline Model select_words(Model model, const WordSelection& selection, unsigned threads) {
+    if (selection.min_information_gain > 0) {
+        const auto gain = word_worth(model.shapes, WordMeasure::information_gain);
+        const double best = *std::max_element(gain.begin(), gain.end());
+        expect(best >= selection.min_information_gain, "training: least information gain",
+               lazy_text("at most that of the best word, ", best), selection.min_information_gain);
+        model = keep_words(model, words_worth(gain, selection.min_information_gain));
+    }
+    if (selection.max_words > 0)
+        model = keep_words(
+            model, best_words(word_worth(model.shapes, selection.measure, threads), selection.max_words));
+    return model;
+}
+
+}  // namespace detail
+
+/// @brief Learns a model from training features: the descriptors of objects are clustered into words, then
+/// each is matched to all words within the threshold, and each match is an occurrence; classifier of boxes
+/// and calibration are learnt from the features of whole images, where these were kept.
+/// @throws Error where an option is out of range or no word is left.
+[[nodiscard]] inline Model learn(const TrainingFeatures& features, const TrainOptions& options = {}) {
+    check(options);
+    expect(!features.objects.empty() && features.feature_count() > 0, "training: objects and features",
+           "1 or more", 0);
+    Model model = detail::learn_occurrences(features, options);
+    model = detail::select_words(std::move(model), options.selection, options.threads);
+    if (features.views.empty() || (!options.box_classifier && !options.calibrate)) return model;
+
+    const std::size_t words = model.words(), classes = model.shapes.class_names.size();
+    const auto classifier_options = options.box_classifier.value_or(BoxClassifierOptions{});
+    const auto boxes =
+        training_boxes(model, features, classifier_options.max_hypotheses, options.threads, options.progress);
+    if (options.calibrate) {
+        const std::size_t views_an_image = std::max<std::size_t>(
+            1, features.views.size() / std::max<std::size_t>(1, features.summary.images));
+        std::vector<std::size_t> image_of_view(features.views.size());
+        for (std::size_t v = 0; v < image_of_view.size(); ++v) image_of_view[v] = v / views_an_image;
+        model.calibration = fit_calibration(boxes, image_of_view, words, classes, options);
+    }
+    if (options.box_classifier)
+        model.box_classifier = fit_box_classifier(boxes, words, classes, classifier_options, options.threads);
+    return model;
+}
+
+}  // namespace ism

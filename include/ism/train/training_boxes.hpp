@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ism/core/geometry.hpp"
+#include "ism/core/progress.hpp"
+#include "ism/core/thread_pool.hpp"
+#include "ism/detect/recognition.hpp"
+#include "ism/model/box_classifier.hpp"
+#include "ism/train/train_options.hpp"
+#include "ism/train/training_features.hpp"
+
+namespace ism {
+
+/// @brief A box of a training image to learn from: a labelled one, or that of a hypothesis.
+struct TrainingBox {
+    static constexpr std::uint32_t background = std::numeric_limits<std::uint32_t>::max();
+    std::vector<SparseEntry> histogram = {};  ///< of the words in it
+    std::uint32_t true_class = background;    ///< of the object that it overlaps most, however little
+    std::uint32_t predicted_class = 0;        ///< of the hypothesis; of a labelled box its own
+    double overlap = 1;                       ///< with that object, IoU
+    double score = std::nan("");              ///< of the hypothesis' votes; NaN for a labelled box
+    std::size_t view = 0;                     ///< of TrainingFeatures
+
+    [[nodiscard]] bool is_hypothesis() const { return !std::isnan(score); }
+};
+
+namespace detail {
+
+/// The features of a training image with their matches to the words of a model.
+[[nodiscard]] inline Scene training_scene(const TrainingView& view, const Model& model,
+                                          std::span<const WordIndex> words, const Frame& blank,
+                                          ThreadPool& pool) {
+    Scene scene{.frame = blank, .model = model, .pool = pool, .features = {}, .matches = {}};
+    for (std::size_t c = 0; c < words.size(); ++c) {
+        const auto first = static_cast<std::uint32_t>(scene.features.size());
+        const auto first_word = static_cast<std::uint32_t>(model.first_word(c));
+        const auto& [features, descriptors] = view.channels[c];
+        scene.features.insert(scene.features.end(), features.begin(), features.end());
+        for (Match match : match(words[c], descriptors, pool)) {
+            match.feature += first, match.word += first_word;
+            scene.matches.push_back(match);
+        }
+    }
+    return scene;
+}
+
+/// The boxes of one image: those labelled, and those of hypotheses found without votes of its own objects.
+[[nodiscard]] inline std::vector<TrainingBox> boxes_of_view(const TrainingView& view, const Scene& scene,
+                                                            const DetectOptions& search) {
+    const auto histogram = [&](const Box& box) {
+        return word_histogram(scene.features, scene.matches, scene.model.words(), box);
+    };
+    std::vector<TrainingBox> boxes;
+    for (const ObjectLabel& label : view.labels)
+        boxes.push_back({.histogram = histogram(label.box),
+                         .true_class = label.class_index,
+                         .predicted_class = label.class_index});
+    VoteLimits limits = vote_limits(scene, search);
+    limits.without_first = view.first_object, limits.without_end = view.end_object;
+    const auto votes = cast_votes<Jism>(scene, search.matching, limits);
+    for (const Detection& guess : find_hypotheses<EpanechnikovKernel, Jism::dimension>(
+             scene, votes, default_bandwidth<Jism>(), search)) {
+        TrainingBox box{.histogram = histogram(guess.box),
+                        .predicted_class = guess.class_index,
+                        .overlap = 0,
+                        .score = guess.score};
+        for (const ObjectLabel& label : view.labels)
+            if (const double shared = iou(guess.box, label.box); shared > box.overlap) {
+                box.overlap = shared;
+                box.true_class = label.class_index;
+            }
+        boxes.push_back(std::move(box));
+    }
+    return boxes;
+}
+
+}  // namespace detail
+
+/// @brief The boxes of all training images to learn from: what is labelled, and what the model finds in each
+/// image when it has not seen its objects (leave one image out). Background images give hypotheses too.
+/// @param model  learnt from the same training features
+/// @return by view; the same for any number of threads
+[[nodiscard]] inline std::vector<TrainingBox> training_boxes(const Model& model,
+                                                             const TrainingFeatures& features,
+                                                             std::size_t max_hypotheses, unsigned threads = 0,
+                                                             const Progress& progress = {}) {
+    const std::size_t views = features.views.size();
+    if (views == 0) return {};
+    const std::size_t images = std::max<std::size_t>(1, features.summary.images);
+    const DetectOptions search{.max_candidates = std::max<std::size_t>(3, max_hypotheses / images)};
+    std::vector<WordIndex> words;
+    for (const Channel& channel : model.channels) words.emplace_back(channel.codebook);
+    std::vector<std::vector<TrainingBox>> parts(views);
+    ProgressCounter counter(progress, "trying on training images", views);
+    parallel_for(views, threads, [&](std::size_t v) {
+        const TrainingView& view = features.views[v];
+        const Frame blank{.gray = GrayImage(view.width, view.height)};
+        ThreadPool pool(1);
+        parts[v] =
+            detail::boxes_of_view(view, detail::training_scene(view, model, words, blank, pool), search);
+        for (TrainingBox& box : parts[v]) box.view = v;
+        counter.step();
+    });
+    std::vector<TrainingBox> boxes;
+    for (auto& part : parts) std::move(part.begin(), part.end(), std::back_inserter(boxes));
+    return boxes;
+}
+
+}  // namespace ism

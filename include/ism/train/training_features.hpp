@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ism/core/error.hpp"
+#include "ism/feature/feature.hpp"
+#include "ism/feature/feature_settings.hpp"
+#include "ism/model/model.hpp"
+#include "ism/train/training_image.hpp"
+
+namespace ism {
+
+/// @brief Features on training objects: where on which object each was, and row i describes occurrence i.
+/// Their weights mean nothing yet.
+struct TrainingSamples {
+    std::vector<Occurrence> occurrences;
+    Descriptors<float> descriptors;
+};
+
+/// @brief All features of a training image or of its mirror image, beside the objects too.
+struct TrainingView {
+    int width = 0, height = 0;  ///< of the image, pixels
+    std::vector<ObjectLabel> labels = {};
+    std::uint32_t first_object = 0, end_object = 0;  ///< those of TrainingFeatures that the image shows
+    std::vector<FeatureSet<float>> channels = {};
+};
+
+/// @brief All that training takes from images: what learn() makes a model of, without them. It can be kept,
+/// joined with that of other images, and learnt from again with other options.
+struct TrainingFeatures {
+    std::vector<std::string> class_names = {};
+    std::vector<TrainingObject> objects = {};
+    std::vector<FeatureSettings> settings =
+        {};  ///< of each channel, with the upsampling chosen from the data
+    std::vector<TrainingSamples> samples =
+        {};                                ///< of each channel; features are numbered through all channels
+    std::vector<TrainingView> views = {};  ///< image by image; empty = not kept
+    TrainingSummary summary = {};
+
+    /// @brief Number of features on objects, of all channels.
+    [[nodiscard]] std::size_t feature_count() const {
+        std::size_t count = 0;
+        for (const TrainingSamples& channel : samples) count += channel.occurrences.size();
+        return count;
+    }
+};
+
+namespace detail {
+
+/// The index of each name in `names`, to which those that it lacks are added.
+[[nodiscard]] inline std::vector<std::uint32_t> join_names(std::vector<std::string>& names,
+                                                           std::span<const std::string> more) {
+    std::vector<std::uint32_t> index;
+    for (const std::string& name : more) {
+        const auto found = std::find(names.begin(), names.end(), name);
+        index.push_back(static_cast<std::uint32_t>(found - names.begin()));
+        if (found == names.end()) names.push_back(name);
+    }
+    return index;
+}
+
+}  // namespace detail
+
+/// @brief Training features of more images: of more classes, or more examples of the same (by name).
+/// @throws Error where the features were found and described in another way.
+[[nodiscard]] inline TrainingFeatures append(TrainingFeatures all, TrainingFeatures more) {
+    expect(all.settings.size() == more.settings.size(), "training features to append: channels",
+           all.settings.size(), more.settings.size());
+    for (std::size_t c = 0; c < all.settings.size(); ++c) {
+        const FeatureSettings &a = all.settings[c], &b = more.settings[c];
+        expect(a.detector == b.detector && a.descriptor == b.descriptor && a.dimension == b.dimension,
+               "training features to append", lazy_text(a.detector, ", ", a.descriptor),
+               lazy_text(b.detector, ", ", b.descriptor));
+        expect(a.options.upsampling == b.options.upsampling, "training features to append: upsampling",
+               a.options.upsampling, b.options.upsampling);
+    }
+    const std::vector<std::uint32_t> class_of = detail::join_names(all.class_names, more.class_names);
+    const auto objects = static_cast<std::uint32_t>(all.objects.size());
+    const auto features = static_cast<std::uint32_t>(all.feature_count());
+    for (TrainingObject& object : more.objects) {
+        object.class_index = class_of[object.class_index];
+        all.objects.push_back(std::move(object));
+    }
+    for (std::size_t c = 0; c < all.samples.size(); ++c)
+        for (std::size_t i = 0; i < more.samples[c].occurrences.size(); ++i) {
+            Occurrence o = more.samples[c].occurrences[i];
+            o.class_index = class_of[o.class_index];
+            o.object += objects, o.feature += features;
+            all.samples[c].occurrences.push_back(o);
+            all.samples[c].descriptors.push_back(more.samples[c].descriptors.row(i));
+        }
+    for (TrainingView& view : more.views) {
+        for (ObjectLabel& label : view.labels) label.class_index = class_of[label.class_index];
+        view.first_object += objects, view.end_object += objects;
+        all.views.push_back(std::move(view));
+    }
+    all.summary.images += more.summary.images;
+    all.summary.features_found += more.summary.features_found;
+    all.summary.features_used += more.summary.features_used;
+    return all;
+}
+
+}  // namespace ism
