@@ -16,6 +16,7 @@
 #include <CLI/CLI.hpp>
 
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/detect/detect.hpp"
 #include "ism/evaluate/evaluate.hpp"
 #include "ism/feature/hessian_laplace.hpp"

@@ -10,6 +10,7 @@
 
 #include "ism/core/frame.hpp"
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/detect/detect.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/table.hpp"

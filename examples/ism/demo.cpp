@@ -13,6 +13,7 @@
 #include "toy/toy_set.hpp"
 
 #include "ism/core/thread_pool.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"

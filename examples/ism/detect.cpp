@@ -11,6 +11,7 @@
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/show/report_detections.hpp"
 
 namespace program {

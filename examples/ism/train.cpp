@@ -10,6 +10,7 @@
 #include "progress.hpp"
 
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/model_file/model_file.hpp"
 
 namespace program {

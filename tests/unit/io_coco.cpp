@@ -9,6 +9,7 @@
 
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/coco_write.hpp"
+#include "ism/dataset/read_images.hpp"
 
 using ism::Box;
 using ism::Camera;
