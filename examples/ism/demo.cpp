@@ -14,6 +14,7 @@
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/read_images.hpp"
+#include "ism/dataset/to_results.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"
@@ -188,7 +189,7 @@ void run_demo(const DemoCommand& command) {
             const Stopwatch search_watch;
             const ism::Detections found = find_objects(matched, shapes, frame, search, 1);
             scenes[i].seconds[s] = look_seconds + search_watch.seconds();
-            scenes[i].results[s] = to_results(found, image, set.test.category_ids);
+            scenes[i].results[s] = ism::to_results(found, image, set.test.category_ids);
             if (space_names[s] != default_space) continue;
             const ism::RgbImage picture = ism::read_rgb(image.file);
             overlays.write(i, picture, found, shapes.class_names);

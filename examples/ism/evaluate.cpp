@@ -18,7 +18,7 @@ void run_evaluate(const EvaluateCommand& command) {
     const ism::Dataset dataset = ism::read_dataset(command.data);
     const std::vector<ism::Result> results = ism::read_results(command.detections);
     const ism::Evaluation evaluation = ism::detail::at_place(ism::detail::file_text(command.detections), [&] {
-        return ism::evaluate(dataset, std::span<const ism::Result>(results), command.options);
+        return ism::evaluate(dataset, results, command.options);
     });
     if (!command.json.empty()) ism::write_file(command.json, ism::to_json(evaluation) + "\n");
     if (!command.plot.empty())

@@ -59,7 +59,7 @@ inline ism::DatasetImage write_picture(const std::filesystem::path& folder, cons
     ism::write_png(image.file, scene.color);
     ism::write_png16(image.depth_file, scene.depth_mm);
     for (const ToyObject& object : scene.objects)
-        image.objects.push_back({.class_index = object.class_index,
+        image.objects.push_back({.class_index = std::uint32_t(object.class_index),
                                  .box = object.box,
                                  .segmentation = ism::compress_mask(object.mask)});
     return image;

@@ -344,7 +344,8 @@ TEST_CASE("Classes selected keep their images and background alone, in the order
     const auto image = [](std::int64_t id, std::vector<std::size_t> classes) {
         DatasetImage made{.id = id, .file = "a.png", .width = 20, .height = 16};
         for (const std::size_t c : classes)
-            made.objects.push_back({.id = 10 * id + std::int64_t(c), .class_index = c, .box = {1, 1, 2, 2}});
+            made.objects.push_back(
+                {.id = 10 * id + std::int64_t(c), .class_index = std::uint32_t(c), .box = {1, 1, 2, 2}});
         return made;
     };
     const Dataset dataset{.class_names = {"cup", "car", "cow"},

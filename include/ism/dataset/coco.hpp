@@ -74,14 +74,15 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
 [[nodiscard]] inline Dataset dataset_from_json(const Json& root, const std::filesystem::path& path) {
     const std::string file = file_text(path);
     Dataset dataset{.source = path};
-    std::map<std::int64_t, std::size_t> class_of, image_of;
+    std::map<std::int64_t, std::size_t> image_of;
+    std::map<std::int64_t, std::uint32_t> class_of;
     std::set<std::string> names;
     std::set<std::int64_t> annotation_ids;
     for (const Json& record : array_member(root, "categories", file)) {
         const std::int64_t id = integer_member(record, "id", file + ", category");
         const std::string place = join_text(file, ", category with id ", id);
         const std::string& name = text_member(record, "name", place);
-        if (!class_of.emplace(id, class_of.size()).second)
+        if (!class_of.emplace(id, std::uint32_t(class_of.size())).second)
             refuse_json(place, "id", "each id once", "it twice");
         if (!names.insert(name).second) refuse_json(place, "name", "each name once", "'" + name + "' twice");
         dataset.class_names.push_back(name);

@@ -29,10 +29,10 @@ using MaskSource = std::variant<std::monostate, CompressedRle, std::vector<Polyg
 
 /// @brief One labelled object of a data set.
 struct DatasetAnnotation {
-    std::int64_t id = 0;          ///< its own in the data set
-    std::size_t class_index = 0;  ///< into Dataset::class_names
-    Box box;                      ///< pixels; may reach outside the image
-    bool crowd = false;           ///< a group: neither to be learnt from nor to be missed
+    std::int64_t id = 0;            ///< its own in the data set
+    std::uint32_t class_index = 0;  ///< into Dataset::class_names
+    Box box;                        ///< pixels; may reach outside the image
+    bool crowd = false;             ///< a group: neither to be learnt from nor to be missed
     MaskSource segmentation = {};
     [[nodiscard]] bool operator==(const DatasetAnnotation&) const = default;
 };
@@ -90,14 +90,14 @@ struct Dataset {
     for (const std::string& name : dataset.class_names) known += (known.empty() ? "" : ", ") + name;
     expect(!names.empty(), "classes to select", lazy_text("at least one of: ", known), "none");
     Dataset part{.source = dataset.source};
-    std::map<std::size_t, std::size_t> new_index;
+    std::map<std::size_t, std::uint32_t> new_index;
     for (const std::string& name : names) {
         const auto found = std::find(dataset.class_names.begin(), dataset.class_names.end(), name);
         expect(found != dataset.class_names.end(), "class to select", lazy_text("one of: ", known),
                lazy_text("'", name, "'"));
         const auto index = std::size_t(found - dataset.class_names.begin());
-        expect(new_index.emplace(index, part.class_names.size()).second, "class to select", "each name once",
-               lazy_text("'", name, "' twice"));
+        expect(new_index.emplace(index, std::uint32_t(part.class_names.size())).second, "class to select",
+               "each name once", lazy_text("'", name, "' twice"));
         part.class_names.push_back(name);
         part.category_ids.push_back(dataset.category_ids.at(index));
     }
