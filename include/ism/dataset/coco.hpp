@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/box_check.hpp"
 #include "ism/dataset/coco_fields.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/io/json.hpp"
@@ -69,6 +70,7 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
         annotation.box = at_place(place, [&] { return mask_box(read_mask(image, annotation)); });
     else
         refuse_json(place, "bbox", "a box, or a segmentation to take it from", "neither");
+    at_place(place, [&] { check_labelled_box(annotation.box, image.width, image.height); });
 }
 
 [[nodiscard]] inline Dataset dataset_from_json(const Json& root, const std::filesystem::path& path) {
@@ -126,8 +128,8 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
 /// per unit) and camera {fx, fy, cx, cy}. File names count from the JSON's folder. A missing bbox is taken
 /// from the segmentation. Images are not opened yet.
 /// @throws FileError, naming the file, the image and the annotation, where the file cannot be read, is no
-/// JSON (with line and column), lacks a key, repeats an id, names an unknown image or category, or a box,
-/// mask size, depth scale or camera makes no sense.
+/// JSON (with line and column), lacks a key, repeats an id, names an unknown image or category, or a box
+/// (see check_labelled_box()), mask size, depth scale or camera makes no sense.
 [[nodiscard]] inline Dataset read_dataset(const std::filesystem::path& path) {
     return detail::dataset_from_json(detail::read_json(path), path);
 }
