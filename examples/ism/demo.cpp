@@ -97,7 +97,7 @@ std::vector<std::vector<std::string>> table_of(std::span<const SpaceOutcome> out
         const ism::Figures& mean = outcomes[s].evaluation.mean;
         rows.push_back({std::string(space_names[s])});
         for (const double share : {mean.ap, mean.eer, mean.best_f1, mean.mask_iou})
-            rows.back().push_back(ism::detail::percent_text(share));
+            rows.back().push_back(ism::percent_text(share));
         char text[32] = "-";
         if (!std::isnan(outcomes[s].position_error_m))
             std::snprintf(text, sizeof text, "%.3f", outcomes[s].position_error_m);

@@ -81,7 +81,7 @@ void run_detect(const DetectCommand& command) {
     const std::size_t skipped =
         check_images(dataset, command.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
             if (needs_depth(command.search.space) && image.depth_file.empty())
-                throw ism::FileError(ism::detail::file_text(image.file) +
+                throw ism::FileError(ism::file_text(image.file) +
                                      ": expected a depth image beside it, got none");
             (void)ism::read_frame(image);
         });

@@ -39,7 +39,7 @@ OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset) : folde
         for (int number = 2; is_taken(); ++number) stem = ism::join_text(base, "-", number);
         for (const std::string& file : files_of(stem)) {
             if (inputs.contains(fs::weakly_canonical(folder_ / file)))
-                throw ism::FileError(ism::detail::file_text(folder_ / file) +
+                throw ism::FileError(ism::file_text(folder_ / file) +
                                      ": expected another folder for overlays than that of the images");
             taken.insert(file);
         }

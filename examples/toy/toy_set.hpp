@@ -75,8 +75,7 @@ inline ism::Dataset write_truth(const std::filesystem::path& file, std::vector<i
         for (auto& object : image.objects) object.id = ++id;
     ism::write_dataset(file, set);
 
-    nlohmann::json root =
-        nlohmann::json::parse(ism::detail::read_whole<std::string>(file, std::uintmax_t(1) << 30));
+    nlohmann::json root = nlohmann::json::parse(ism::read_text(file, std::uintmax_t(1) << 30));
     std::size_t next = 0;
     for (const auto& objects : truth)
         for (const ToyObject& object : objects) {

@@ -15,6 +15,7 @@
 #include "ism/dataset/coco_fields.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/io/json.hpp"
+#include "ism/io/paths.hpp"
 
 namespace ism {
 
@@ -33,14 +34,14 @@ namespace detail {
     DatasetImage image;
     image.id = integer_member(record, "id", list);
     const std::string place = join_text(list, " with id ", image.id);
-    image.file = folder / path_from_json(text_member(record, "file_name", place));
+    image.file = folder / path_from_utf8(text_member(record, "file_name", place));
     const std::int64_t width = integer_member(record, "width", place);
     const std::int64_t height = integer_member(record, "height", place);
     if (!is_image_size(width, height))
         refuse_json(place, "width, height", image_size_limits, join_text(width, "x", height));
     image.width = int(width), image.height = int(height);
     if (const Json* depth_file = optional_member(record, "depth_file_name", place)) {
-        image.depth_file = folder / path_from_json(to_text(*depth_file, "depth_file_name", place));
+        image.depth_file = folder / path_from_utf8(to_text(*depth_file, "depth_file_name", place));
         image.depth_scale = number_member(record, "depth_scale", place);
         if (!(image.depth_scale > 0))
             refuse_json(place, "depth_scale", "metres per unit above 0", join_text(image.depth_scale));

@@ -20,7 +20,7 @@
 #include "ism/dataset/polygon.hpp"
 #include "ism/dataset/rle.hpp"
 #include "ism/io/limits.hpp"
-#include "ism/io/write_file.hpp"
+#include "ism/io/paths.hpp"
 
 namespace ism {
 
@@ -63,7 +63,7 @@ struct Dataset {
 /// without a figure pixel.
 [[nodiscard]] inline Mask read_mask(const DatasetImage& image, const DatasetAnnotation& annotation) {
     if (std::holds_alternative<std::monostate>(annotation.segmentation)) return {};
-    try {
+    return at_place(join_text(file_text(image.file), ", annotation ", annotation.id), [&] {
         Mask mask;
         if (const auto* packed = std::get_if<CompressedRle>(&annotation.segmentation)) {
             expect(packed->width == image.width && packed->height == image.height, "mask size",
@@ -75,10 +75,7 @@ struct Dataset {
         }
         expect(mask_area(mask) > 0, "mask", "at least one figure pixel", "none");
         return mask;
-    } catch (const Error& error) {
-        throw FileError(
-            join_text(detail::file_text(image.file), ", annotation ", annotation.id, ": ", error.what()));
-    }
+    });
 }
 
 /// @brief The part of a data set with these classes alone, in the order of `names`; class indices follow it.

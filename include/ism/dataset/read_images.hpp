@@ -11,6 +11,7 @@
 #include "ism/core/frame.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/io/images.hpp"
+#include "ism/io/paths.hpp"
 #include "ism/train/training_image.hpp"
 
 namespace ism {
@@ -21,7 +22,7 @@ namespace ism {
 [[nodiscard]] inline Frame read_frame(const DatasetImage& image) {
     const auto check_size = [&](const std::filesystem::path& file, const SizeText& size) {
         if (size.width != image.width || size.height != image.height)
-            throw FileError(join_text(detail::file_text(file), ": expected ", detail::sides_text(image),
+            throw FileError(join_text(file_text(file), ": expected ", detail::sides_text(image),
                                       " pixels as its data set says, got ", size));
     };
     Frame frame{.gray = read_gray(image.file)};
@@ -32,12 +33,7 @@ namespace ism {
         frame.depth_m = to_metres(raw, image.depth_scale);
     }
     frame.camera = image.camera;
-    try {
-        check(frame);
-    } catch (const Error& error) {
-        throw FileError(detail::file_text(image.depth_file.empty() ? image.file : image.depth_file) + ": " +
-                        error.what());
-    }
+    at_place(file_text(image.depth_file.empty() ? image.file : image.depth_file), [&] { check(frame); });
     return frame;
 }
 
