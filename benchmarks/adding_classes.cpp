@@ -16,8 +16,10 @@
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/evaluate/evaluate.hpp"
+#include "ism/evaluate/detections.hpp"
+#include "ism/evaluate/table.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
 #include "ism/train/add_classes.hpp"
@@ -42,19 +44,11 @@ struct Result {
 /// A data set whose classes have the names of a model, in its order.
 [[nodiscard]] Result evaluated(const Model& model, const ism::Dataset& all) {
     const ism::Dataset set = ism::select_classes(all, model.shapes.class_names);
-    std::vector<std::vector<ism::FoundObject>> found(set.images.size());
+    std::vector<ism::Detections> found(set.images.size());
     ism::parallel_for(set.images.size(), 0, [&](std::size_t i) {
-        const auto seen = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {.threads = 1});
-        found[i] = ism::found_objects(seen.objects, i);
+        found[i] = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {.threads = 1});
     });
-    std::vector<ism::TruthObject> truth;
-    std::vector<ism::FoundObject> objects;
-    for (std::size_t i = 0; i < set.images.size(); ++i) {
-        for (const auto& object : set.images[i].objects)
-            truth.push_back({.image = i, .class_index = object.class_index, .box = object.box});
-        objects.insert(objects.end(), found[i].begin(), found[i].end());
-    }
-    const auto figures = ism::evaluate(truth, objects, set.images.size(), set.class_names, ism::IouRule{});
+    const auto figures = ism::evaluate(set, found, ism::IouRule{});
     return {.accuracy = figures.confusion ? figures.confusion->accuracy() : 0,
             .ap = figures.mean.ap,
             .words = double(model.codebook.size())};

@@ -16,8 +16,9 @@
 #include <CLI/CLI.hpp>
 
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/evaluate/evaluate.hpp"
+#include "ism/evaluate/detections.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
 #include "ism/io/write_file.hpp"
@@ -35,21 +36,11 @@ struct Figures {
 };
 
 [[nodiscard]] Figures figures_of(const Model& model, const ism::Dataset& set) {
-    std::vector<std::vector<ism::FoundObject>> parts(set.images.size());
+    std::vector<ism::Detections> found(set.images.size());
     ism::parallel_for(set.images.size(), 0, [&](std::size_t i) {
-        const auto result = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {.threads = 1});
-        for (const ism::Detection& d : result.objects)
-            parts[i].push_back({.image = i, .class_index = d.class_index, .box = d.box, .score = d.score});
+        found[i] = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {.threads = 1});
     });
-    std::vector<ism::FoundObject> found;
-    for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
-    std::vector<ism::TruthObject> truth;
-    for (std::size_t i = 0; i < set.images.size(); ++i)
-        for (const auto& object : set.images[i].objects)
-            truth.push_back({.image = i, .class_index = object.class_index, .box = object.box});
-    const auto no_masks = [](std::size_t, std::size_t) { return std::nan(""); };
-    const auto evaluation =
-        ism::evaluate(truth, found, set.images.size(), set.class_names, ism::IouRule{0.5}, no_masks);
+    const auto evaluation = ism::evaluate(set, found, ism::IouRule{0.5});
     return {evaluation.confusion ? evaluation.confusion->accuracy() : std::nan(""), evaluation.mean.ap};
 }
 

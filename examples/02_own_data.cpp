@@ -7,9 +7,13 @@
 // The JSON files are COCO; an image may also have depth_file_name, depth_scale and camera.
 #include <cstdio>
 #include <exception>
+#include <utility>
+#include <vector>
 
 #include "ism/core/frame.hpp"
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
+#include "ism/dataset/to_results.hpp"
 #include "ism/detect/detect.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/table.hpp"
@@ -35,19 +39,11 @@ int main(int argc, char** argv) try {
     for (const ism::DatasetImage& image : scenes.images) {
         const ism::Frame frame = ism::read_frame(image);
         const ism::Detections found = ism::detect<ism::Jism>(model, frame);
-        for (const ism::Detection& object : found.objects)
-            results.push_back({.image_id = image.id,
-                               .category_id = lessons.category_ids[object.class_index],
-                               .box = object.box,
-                               .score = object.score,
-                               .segmentation = ism::compress_mask(
-                                   ism::whole_mask(object.segmentation, image.width, image.height)),
-                               .position_m = object.position_m,
-                               .depth_m = object.depth_m,
-                               .scale = object.scale});
+        for (ism::Result& result : ism::to_results(found, image, lessons.category_ids))
+            results.push_back(std::move(result));
     }
     ism::write_results(argv[4], results);
-    std::fputs(ism::to_table(ism::evaluate(scenes, std::span<const ism::Result>(results))).c_str(), stdout);
+    std::fputs(ism::to_table(ism::evaluate(scenes, results)).c_str(), stdout);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

@@ -13,6 +13,7 @@
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/feature/extract.hpp"
 
 namespace bench {

@@ -9,6 +9,7 @@
 #include "ism/core/frame.hpp"
 #include "ism/core/random.hpp"
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/feature/depth.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"

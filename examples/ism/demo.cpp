@@ -13,6 +13,8 @@
 #include "toy/toy_set.hpp"
 
 #include "ism/core/thread_pool.hpp"
+#include "ism/dataset/read_images.hpp"
+#include "ism/dataset/to_results.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"
@@ -95,7 +97,7 @@ std::vector<std::vector<std::string>> table_of(std::span<const SpaceOutcome> out
         const ism::Figures& mean = outcomes[s].evaluation.mean;
         rows.push_back({std::string(space_names[s])});
         for (const double share : {mean.ap, mean.eer, mean.best_f1, mean.mask_iou})
-            rows.back().push_back(ism::detail::percent_text(share));
+            rows.back().push_back(ism::percent_text(share));
         char text[32] = "-";
         if (!std::isnan(outcomes[s].position_error_m))
             std::snprintf(text, sizeof text, "%.3f", outcomes[s].position_error_m);
@@ -187,7 +189,7 @@ void run_demo(const DemoCommand& command) {
             const Stopwatch search_watch;
             const ism::Detections found = find_objects(matched, shapes, frame, search, 1);
             scenes[i].seconds[s] = look_seconds + search_watch.seconds();
-            scenes[i].results[s] = to_results(found, image, set.test.category_ids);
+            scenes[i].results[s] = ism::to_results(found, image, set.test.category_ids);
             if (space_names[s] != default_space) continue;
             const ism::RgbImage picture = ism::read_rgb(image.file);
             overlays.write(i, picture, found, shapes.class_names);

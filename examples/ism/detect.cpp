@@ -11,6 +11,8 @@
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
+#include "ism/dataset/to_results.hpp"
 #include "ism/show/report_detections.hpp"
 
 namespace program {
@@ -79,7 +81,7 @@ void run_detect(const DetectCommand& command) {
     const std::size_t skipped =
         check_images(dataset, command.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
             if (needs_depth(command.search.space) && image.depth_file.empty())
-                throw ism::FileError(ism::detail::file_text(image.file) +
+                throw ism::FileError(ism::file_text(image.file) +
                                      ": expected a depth image beside it, got none");
             (void)ism::read_frame(image);
         });
@@ -106,7 +108,7 @@ void run_detect(const DetectCommand& command) {
             const ism::Frame frame = ism::read_frame(image);
             const ism::Detections found =
                 find_objects(matchers[worker](frame), shapes, frame, command.search, inner);
-            results[i] = to_results(found, image, ids);
+            results[i] = ism::to_results(found, image, ids);
             if (overlays || i < sections.size()) {
                 const ism::RgbImage picture = ism::read_rgb(image.file);
                 if (overlays) overlays->write(i, picture, found, shapes.class_names);

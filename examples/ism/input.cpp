@@ -13,6 +13,7 @@
 #include "ism/core/number_text.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco_write.hpp"
+#include "ism/io/paths.hpp"
 #include "ism/io/write_file.hpp"
 
 namespace program {
@@ -20,7 +21,7 @@ namespace program {
 namespace fs = std::filesystem;
 
 std::string short_name(const ism::Dataset& dataset, const ism::DatasetImage& image) {
-    return ism::detail::path_to_json(ism::detail::relative_to(image.file, dataset.source.parent_path()));
+    return ism::path_to_utf8(ism::relative_to(image.file, dataset.source.parent_path()));
 }
 
 std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
@@ -60,7 +61,7 @@ std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
 }
 
 void check_output(const fs::path& file, std::span<const fs::path> inputs) {
-    const std::string text = ism::detail::file_text(file);
+    const std::string text = ism::file_text(file);
     std::error_code failure;
     if (file.filename().empty()) throw ism::FileError(text + ": expected a file to write, got no file name");
     if (fs::is_directory(file, failure))

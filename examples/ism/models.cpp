@@ -44,7 +44,7 @@ AnyModel learn_any(std::string_view detector, std::string_view descriptor, const
 
 AnyModel load_any(const std::filesystem::path& path) {
     const ism::ModelInfo info = ism::read_model_info(path);
-    return make_named(info.detector, info.descriptor, ism::detail::file_text(path),
+    return make_named(info.detector, info.descriptor, ism::file_text(path),
                       [&](auto part) { return part.load(path); });
 }
 

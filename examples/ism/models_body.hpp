@@ -9,6 +9,7 @@
 #include "input.hpp"
 #include "models.hpp"
 
+#include "ism/dataset/read_images.hpp"
 #include "ism/detect/frame_matcher.hpp"
 #include "ism/io/write_file.hpp"
 #include "ism/model_file/model_file.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "ism/dataset/rle.hpp"
 #include "ism/io/png.hpp"
 #include "ism/show/overlay.hpp"
 
@@ -40,7 +39,7 @@ OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset) : folde
         for (int number = 2; is_taken(); ++number) stem = ism::join_text(base, "-", number);
         for (const std::string& file : files_of(stem)) {
             if (inputs.contains(fs::weakly_canonical(folder_ / file)))
-                throw ism::FileError(ism::detail::file_text(folder_ / file) +
+                throw ism::FileError(ism::file_text(folder_ / file) +
                                      ": expected another folder for overlays than that of the images");
             taken.insert(file);
         }
@@ -54,22 +53,6 @@ void OverlayFiles::write(std::size_t i, const ism::RgbImage& picture, const ism:
     ism::write_png(folder_ / files[0], ism::overlay_all(picture, detections, class_names));
     for (std::size_t row = 0; row < std::min(rows, detections.objects.size()); ++row)
         ism::write_png(folder_ / files[row + 1], ism::overlay_row(picture, detections, row, class_names));
-}
-
-std::vector<ism::Result> to_results(const ism::Detections& detections, const ism::DatasetImage& image,
-                                    std::span<const std::int64_t> category_ids) {
-    std::vector<ism::Result> results;
-    for (const ism::Detection& found : detections.objects)
-        results.push_back({.image_id = image.id,
-                           .category_id = category_ids[found.class_index],
-                           .box = found.box,
-                           .score = found.score,
-                           .segmentation = ism::compress_mask(
-                               ism::whole_mask(found.segmentation, image.width, image.height)),
-                           .position_m = found.position_m,
-                           .depth_m = found.depth_m,
-                           .scale = found.scale});
-    return results;
 }
 
 }  // namespace program

@@ -11,7 +11,6 @@
 #include "models.hpp"
 
 #include "ism/core/image.hpp"
-#include "ism/dataset/coco_results.hpp"
 #include "ism/show/report.hpp"
 
 namespace program {
@@ -34,10 +33,5 @@ private:
     std::filesystem::path folder_;
     std::vector<std::string> stems_;
 };
-
-/// Detections as results of an image.
-[[nodiscard]] std::vector<ism::Result> to_results(const ism::Detections& detections,
-                                                  const ism::DatasetImage& image,
-                                                  std::span<const std::int64_t> category_ids);
 
 }  // namespace program

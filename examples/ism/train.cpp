@@ -10,6 +10,7 @@
 #include "progress.hpp"
 
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/model_file/model_file.hpp"
 
 namespace program {
@@ -27,7 +28,7 @@ void run_train(const TrainCommand& command) {
     const std::size_t skipped =
         check_images(dataset, command.options.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
             ism::TrainingImage training = ism::read_training_image(image);
-            training.name = ism::detail::file_text(image.file);
+            training.name = ism::file_text(image.file);
             ism::detail::check_training_image(training, dataset.class_names.size());
         });
 

@@ -59,7 +59,7 @@ inline ism::DatasetImage write_picture(const std::filesystem::path& folder, cons
     ism::write_png(image.file, scene.color);
     ism::write_png16(image.depth_file, scene.depth_mm);
     for (const ToyObject& object : scene.objects)
-        image.objects.push_back({.class_index = object.class_index,
+        image.objects.push_back({.class_index = std::uint32_t(object.class_index),
                                  .box = object.box,
                                  .segmentation = ism::compress_mask(object.mask)});
     return image;
@@ -75,8 +75,7 @@ inline ism::Dataset write_truth(const std::filesystem::path& file, std::vector<i
         for (auto& object : image.objects) object.id = ++id;
     ism::write_dataset(file, set);
 
-    nlohmann::json root =
-        nlohmann::json::parse(ism::detail::read_whole<std::string>(file, std::uintmax_t(1) << 30));
+    nlohmann::json root = nlohmann::json::parse(ism::read_text(file, std::uintmax_t(1) << 30));
     std::size_t next = 0;
     for (const auto& objects : truth)
         for (const ToyObject& object : objects) {

@@ -11,8 +11,9 @@
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/evaluate/evaluate.hpp"
+#include "ism/evaluate/detections.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
 #include "ism/train/train.hpp"
@@ -33,25 +34,7 @@ ism::Evaluation evaluated(const Model& model, const ism::Dataset& data, const Ru
     ism::parallel_for(data.images.size(), 0, [&](std::size_t i) {
         found[i] = ism::detect<Space>(model, ism::read_frame(data.images[i]), {.threads = 1});
     });
-    std::vector<ism::TruthObject> truth;
-    std::vector<std::pair<const ism::DatasetImage*, const ism::DatasetAnnotation*>> annotation_of;
-    std::vector<ism::FoundObject> objects;
-    std::vector<const ism::Segmentation*> segmentation_of;
-    for (std::size_t i = 0; i < data.images.size(); ++i) {
-        for (const auto& object : data.images[i].objects) {
-            truth.push_back({.image = i, .class_index = object.class_index, .box = object.box});
-            annotation_of.emplace_back(&data.images[i], &object);
-        }
-        for (const auto& object : ism::found_objects(found[i].objects, i)) objects.push_back(object);
-        for (const auto& object : found[i].objects) segmentation_of.push_back(&object.segmentation);
-    }
-    const auto overlap = [&](std::size_t f, std::size_t t) {
-        const auto& [image, annotation] = annotation_of[t];
-        const ism::Mask mask = ism::read_mask(*image, *annotation);
-        if (mask.empty()) return std::numeric_limits<double>::quiet_NaN();
-        return ism::mask_iou(ism::whole_mask(*segmentation_of[f], image->width, image->height), mask);
-    };
-    return ism::evaluate(truth, objects, data.images.size(), data.class_names, rule, overlap);
+    return ism::evaluate(data, found, rule);
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 
 namespace {
 
-using Approx = Catch::Detail::Approx;
 using Model = ism::Model<ism::HessianLaplace, ism::GrayPatch>;
 using Harvest = ism::Harvest<ism::HessianLaplace, ism::GrayPatch>;
 

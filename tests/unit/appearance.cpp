@@ -11,7 +11,6 @@
 namespace {
 
 using ism::AppearanceSample;
-using Approx = Catch::Detail::Approx;
 
 ism::Feature feature_at(float x, float y) {
     ism::Feature f;

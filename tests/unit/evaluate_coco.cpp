@@ -7,6 +7,10 @@
 
 #include "ism/evaluate/coco.hpp"
 
+#if defined(STBI_INCLUDE_STB_IMAGE_H)
+#error "files are measured against files without a library for images"
+#endif
+
 namespace {
 
 ism::Mask rectangle(int x0, int y0, int width, int height) {

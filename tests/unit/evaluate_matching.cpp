@@ -24,10 +24,10 @@ const Judgement ignored{Verdict::ignored, ism::no_object};
 Judgement right(std::size_t truth) {
     return {Verdict::right, truth};
 }
-FoundObject found_at(double x, double score, std::size_t image = 0, std::size_t class_index = 0) {
+FoundObject found_at(double x, double score, std::size_t image = 0, std::uint32_t class_index = 0) {
     return {image, class_index, {x, 0, 10, 10}, score};
 }
-TruthObject truth_at(double x, std::size_t image = 0, std::size_t class_index = 0) {
+TruthObject truth_at(double x, std::size_t image = 0, std::uint32_t class_index = 0) {
     return {image, class_index, {x, 0, 10, 10}, false};
 }
 

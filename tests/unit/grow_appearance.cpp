@@ -14,7 +14,6 @@
 
 namespace {
 
-using Approx = Catch::Detail::Approx;
 using ism::Appearance;
 using ism::AppearanceSample;
 using ism::BinValue;

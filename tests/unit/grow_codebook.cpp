@@ -12,7 +12,6 @@
 
 namespace {
 
-using Approx = Catch::Detail::Approx;
 using Points = ism::Descriptors<float, 2>;
 
 Points points(const std::vector<float>& values) {

@@ -9,6 +9,7 @@
 
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/coco_write.hpp"
+#include "ism/dataset/read_images.hpp"
 
 using ism::Box;
 using ism::Camera;
@@ -339,11 +340,24 @@ TEST_CASE("A data set that is written comes back equal, in the same bytes every 
     CHECK(ism::read_text(folder / "labels/a.json") == before);
 }
 
+TEST_CASE("Boxes that no object can have are refused with the annotation") {
+    const std::string place =
+        "file 'a.json', annotation with id 5 of image 1 ('images/a.png'): box: expected ";
+    const auto error = [&](const std::string& box) { return read_error(annotation(",\"bbox\":" + box)); };
+    CHECK(error("[0,10,1e9,1e-3]") == place + "sides of 0.1 to 200 pixels, got 1e+09x0.001");
+    CHECK(error("[10,10,1e-200,1e-200]") == place + "sides of 0.1 to 200 pixels, got 1e-200x1e-200");
+    CHECK(error("[0,10,2e7,1e-9]") == place + "sides of 0.1 to 200 pixels, got 2e+07x1e-09");
+    CHECK(error("[0,10,150,0.1]") == place + "one side at most 1000 times the other, got 150x0.1");
+    CHECK(error("[20,3,4,5]") == place + "a part in the image of 20x16, got 20, 3, 4, 5");
+    CHECK(error("[19,15,4,5]") == "nothing thrown");
+}
+
 TEST_CASE("Classes selected keep their images and background alone, in the order asked for") {
     const auto image = [](std::int64_t id, std::vector<std::size_t> classes) {
         DatasetImage made{.id = id, .file = "a.png", .width = 20, .height = 16};
         for (const std::size_t c : classes)
-            made.objects.push_back({.id = 10 * id + std::int64_t(c), .class_index = c, .box = {1, 1, 2, 2}});
+            made.objects.push_back(
+                {.id = 10 * id + std::int64_t(c), .class_index = std::uint32_t(c), .box = {1, 1, 2, 2}});
         return made;
     };
     const Dataset dataset{.class_names = {"cup", "car", "cow"},

@@ -6,8 +6,6 @@
 
 #include "ism/train/train.hpp"
 
-using Approx = Catch::Detail::Approx;
-
 TEST_CASE("occurrences weigh by hand: a feature has one vote, classes count alike, a word's add up to 1") {
     ism::Shapes shapes;
     shapes.class_names = {"a", "b"};

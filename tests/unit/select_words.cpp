@@ -11,7 +11,6 @@
 
 namespace {
 
-using Approx = Catch::Detail::Approx;
 using Model = ism::Model<ism::HessianLaplace, ism::GrayPatch>;
 
 ism::Occurrence seen(std::uint32_t object, std::uint32_t class_index, float x, float scale = 1) {

@@ -14,6 +14,7 @@
 #include "toy/toy_set.hpp"
 #include <nlohmann/json.hpp>
 
+#include "ism/dataset/read_images.hpp"
 #include "ism/io/write_file.hpp"
 
 using ism::test::error_message;
@@ -260,15 +261,13 @@ TEST_CASE("A toy set is the same bytes for one thread and for two, and reads bac
     REQUIRE(files == files_below(two.path()));
     CHECK(files.size() == 2 * (5 + 1 + 2) + 2);
     for (const auto& file : files)
-        CHECK(ism::detail::read_whole<std::string>(one.path() / file, 1u << 26) ==
-              ism::detail::read_whole<std::string>(two.path() / file, 1u << 26));
+        CHECK(ism::read_text(one.path() / file, 1u << 26) == ism::read_text(two.path() / file, 1u << 26));
 
     REQUIRE(set.train.images.size() == 6);
     REQUIRE(set.test.images.size() == 2);
     CHECK(set.train.images.back().objects.empty());
     CHECK(set.train.class_names == toy::class_names());
-    const auto root =
-        nlohmann::json::parse(ism::detail::read_whole<std::string>(one / "test.json", 1u << 26));
+    const auto root = nlohmann::json::parse(ism::read_text(one / "test.json", 1u << 26));
     std::size_t record = 0;
     for (std::size_t i = 0; i < set.test.images.size(); ++i) {
         const ism::Frame frame = ism::read_frame(set.test.images[i]);

@@ -11,9 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/box_check.hpp"
 #include "ism/dataset/coco_fields.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/io/json.hpp"
+#include "ism/io/paths.hpp"
 
 namespace ism {
 
@@ -32,14 +34,14 @@ namespace detail {
     DatasetImage image;
     image.id = integer_member(record, "id", list);
     const std::string place = join_text(list, " with id ", image.id);
-    image.file = folder / path_from_json(text_member(record, "file_name", place));
+    image.file = folder / path_from_utf8(text_member(record, "file_name", place));
     const std::int64_t width = integer_member(record, "width", place);
     const std::int64_t height = integer_member(record, "height", place);
     if (!is_image_size(width, height))
         refuse_json(place, "width, height", image_size_limits, join_text(width, "x", height));
     image.width = int(width), image.height = int(height);
     if (const Json* depth_file = optional_member(record, "depth_file_name", place)) {
-        image.depth_file = folder / path_from_json(to_text(*depth_file, "depth_file_name", place));
+        image.depth_file = folder / path_from_utf8(to_text(*depth_file, "depth_file_name", place));
         image.depth_scale = number_member(record, "depth_scale", place);
         if (!(image.depth_scale > 0))
             refuse_json(place, "depth_scale", "metres per unit above 0", join_text(image.depth_scale));
@@ -69,19 +71,21 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
         annotation.box = at_place(place, [&] { return mask_box(read_mask(image, annotation)); });
     else
         refuse_json(place, "bbox", "a box, or a segmentation to take it from", "neither");
+    at_place(place, [&] { check_labelled_box(annotation.box, image.width, image.height); });
 }
 
 [[nodiscard]] inline Dataset dataset_from_json(const Json& root, const std::filesystem::path& path) {
     const std::string file = file_text(path);
     Dataset dataset{.source = path};
-    std::map<std::int64_t, std::size_t> class_of, image_of;
+    std::map<std::int64_t, std::size_t> image_of;
+    std::map<std::int64_t, std::uint32_t> class_of;
     std::set<std::string> names;
     std::set<std::int64_t> annotation_ids;
     for (const Json& record : array_member(root, "categories", file)) {
         const std::int64_t id = integer_member(record, "id", file + ", category");
         const std::string place = join_text(file, ", category with id ", id);
         const std::string& name = text_member(record, "name", place);
-        if (!class_of.emplace(id, class_of.size()).second)
+        if (!class_of.emplace(id, std::uint32_t(class_of.size())).second)
             refuse_json(place, "id", "each id once", "it twice");
         if (!names.insert(name).second) refuse_json(place, "name", "each name once", "'" + name + "' twice");
         dataset.class_names.push_back(name);
@@ -125,8 +129,8 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
 /// per unit) and camera {fx, fy, cx, cy}. File names count from the JSON's folder. A missing bbox is taken
 /// from the segmentation. Images are not opened yet.
 /// @throws FileError, naming the file, the image and the annotation, where the file cannot be read, is no
-/// JSON (with line and column), lacks a key, repeats an id, names an unknown image or category, or a box,
-/// mask size, depth scale or camera makes no sense.
+/// JSON (with line and column), lacks a key, repeats an id, names an unknown image or category, or a box
+/// (see check_labelled_box()), mask size, depth scale or camera makes no sense.
 [[nodiscard]] inline Dataset read_dataset(const std::filesystem::path& path) {
     return detail::dataset_from_json(detail::read_json(path), path);
 }

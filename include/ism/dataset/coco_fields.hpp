@@ -10,6 +10,7 @@
 #include "ism/core/geometry.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/io/json.hpp"
+#include "ism/io/paths.hpp"
 
 /// The fields that COCO's data sets and results have in common.
 namespace ism::detail {

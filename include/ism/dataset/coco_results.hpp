@@ -88,7 +88,7 @@ namespace detail {
 /// then.
 inline void write_results(const std::filesystem::path& path, std::span<const Result> results) {
     using detail::Json;
-    const std::string place = detail::file_text(path);
+    const std::string place = file_text(path);
     Json records = Json::array();
     for (std::size_t i = 0; i < results.size(); ++i) {
         records.push_back(detail::result_to_json(results[i]));
@@ -103,7 +103,7 @@ inline void write_results(const std::filesystem::path& path, std::span<const Res
 /// array, or a value makes no sense.
 [[nodiscard]] inline std::vector<Result> read_results(const std::filesystem::path& path) {
     const detail::Json root = detail::read_json(path);
-    const std::string file = detail::file_text(path);
+    const std::string file = file_text(path);
     if (!root.is_array())
         throw FileError(file + ": expected an array of results, got " + detail::json_text(root));
     std::vector<Result> results;

@@ -9,27 +9,18 @@
 
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/coco_fields.hpp"
+#include "ism/io/paths.hpp"
 #include "ism/io/write_file.hpp"
 
 namespace ism {
 
 namespace detail {
 
-/// @brief `file` as seen from `folder` (empty: the current one), by the names alone; whole where the two have
-/// nothing in common.
-[[nodiscard]] inline std::filesystem::path relative_to(const std::filesystem::path& file,
-                                                       const std::filesystem::path& folder) {
-    const auto whole = std::filesystem::absolute(file).lexically_normal();
-    const auto from = std::filesystem::absolute(folder.empty() ? "." : folder) / "";
-    const auto relative = whole.lexically_relative(from.lexically_normal());
-    return relative.empty() ? whole : relative;
-}
-
 [[nodiscard]] inline Json image_to_json(const DatasetImage& image, const std::filesystem::path& folder) {
     Json record = {{"id", image.id}, {"width", image.width}, {"height", image.height}};
-    record["file_name"] = image.file.empty() ? "" : path_to_json(relative_to(image.file, folder));
+    record["file_name"] = image.file.empty() ? "" : path_to_utf8(relative_to(image.file, folder));
     if (!image.depth_file.empty()) {
-        record["depth_file_name"] = path_to_json(relative_to(image.depth_file, folder));
+        record["depth_file_name"] = path_to_utf8(relative_to(image.depth_file, folder));
         record["depth_scale"] = image.depth_scale;
     }
     if (image.camera)
@@ -64,7 +55,7 @@ namespace detail {
 /// then.
 inline void write_dataset(const std::filesystem::path& path, const Dataset& dataset) {
     using detail::Json;
-    const std::string place = detail::file_text(path);
+    const std::string place = file_text(path);
     expect<FileError>(dataset.category_ids.size() == dataset.class_names.size(),
                       lazy_text(place, ": category ids"), dataset.class_names.size(),
                       dataset.category_ids.size());

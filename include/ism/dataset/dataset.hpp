@@ -15,13 +15,12 @@
 #include <vector>
 
 #include "ism/core/camera.hpp"
-#include "ism/core/frame.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
 #include "ism/dataset/polygon.hpp"
 #include "ism/dataset/rle.hpp"
-#include "ism/io/images.hpp"
-#include "ism/train/training_image.hpp"
+#include "ism/io/limits.hpp"
+#include "ism/io/paths.hpp"
 
 namespace ism {
 
@@ -30,15 +29,16 @@ using MaskSource = std::variant<std::monostate, CompressedRle, std::vector<Polyg
 
 /// @brief One labelled object of a data set.
 struct DatasetAnnotation {
-    std::int64_t id = 0;          ///< its own in the data set
-    std::size_t class_index = 0;  ///< into Dataset::class_names
-    Box box;                      ///< pixels; may reach outside the image
-    bool crowd = false;           ///< a group: neither to be learnt from nor to be missed
+    std::int64_t id = 0;            ///< its own in the data set
+    std::uint32_t class_index = 0;  ///< into Dataset::class_names
+    Box box;                        ///< pixels; may reach outside the image
+    bool crowd = false;             ///< a group: neither to be learnt from nor to be missed
     MaskSource segmentation = {};
     [[nodiscard]] bool operator==(const DatasetAnnotation&) const = default;
 };
 
-/// @brief One image of a data set with its labels; its pixels are read only by read_frame().
+/// @brief One image of a data set with its labels; its pixels are read only by read_frame()
+/// (dataset/read_images.hpp).
 struct DatasetImage {
     std::int64_t id = 0;                    ///< its own in the data set
     std::filesystem::path file;             ///< colour or grey image
@@ -63,7 +63,7 @@ struct Dataset {
 /// without a figure pixel.
 [[nodiscard]] inline Mask read_mask(const DatasetImage& image, const DatasetAnnotation& annotation) {
     if (std::holds_alternative<std::monostate>(annotation.segmentation)) return {};
-    try {
+    return at_place(join_text(file_text(image.file), ", annotation ", annotation.id), [&] {
         Mask mask;
         if (const auto* packed = std::get_if<CompressedRle>(&annotation.segmentation)) {
             expect(packed->width == image.width && packed->height == image.height, "mask size",
@@ -75,47 +75,7 @@ struct Dataset {
         }
         expect(mask_area(mask) > 0, "mask", "at least one figure pixel", "none");
         return mask;
-    } catch (const Error& error) {
-        throw FileError(
-            join_text(detail::file_text(image.file), ", annotation ", annotation.id, ": ", error.what()));
-    }
-}
-
-/// @brief Reads an image's brightness, its depth in metres where it has a depth file, and its camera.
-/// @throws FileError, naming the file, where one cannot be read, is of another size than the data set says,
-/// is smaller than 16×16, or has no depth reading at all.
-[[nodiscard]] inline Frame read_frame(const DatasetImage& image) {
-    const auto check_size = [&](const std::filesystem::path& file, const SizeText& size) {
-        if (size.width != image.width || size.height != image.height)
-            throw FileError(join_text(detail::file_text(file), ": expected ", detail::sides_text(image),
-                                      " pixels as its data set says, got ", size));
-    };
-    Frame frame{.gray = read_gray(image.file)};
-    check_size(image.file, size_text(frame.gray));
-    if (!image.depth_file.empty()) {
-        const RawDepth raw = read_raw_depth(image.depth_file);
-        check_size(image.depth_file, size_text(raw));
-        frame.depth_m = to_metres(raw, image.depth_scale);
-    }
-    frame.camera = image.camera;
-    try {
-        check(frame);
-    } catch (const Error& error) {
-        throw FileError(detail::file_text(image.depth_file.empty() ? image.file : image.depth_file) + ": " +
-                        error.what());
-    }
-    return frame;
-}
-
-/// @brief Reads an image and decodes its objects' masks; crowds are left out.
-/// @throws FileError as read_frame() and read_mask() do.
-[[nodiscard]] inline TrainingImage read_training_image(const DatasetImage& image) {
-    TrainingImage training{.frame = read_frame(image), .name = image.file.string()};
-    for (const DatasetAnnotation& object : image.objects)
-        if (!object.crowd)
-            training.objects.push_back(
-                {.class_index = object.class_index, .box = object.box, .mask = read_mask(image, object)});
-    return training;
+    });
 }
 
 /// @brief The part of a data set with these classes alone, in the order of `names`; class indices follow it.
@@ -127,14 +87,14 @@ struct Dataset {
     for (const std::string& name : dataset.class_names) known += (known.empty() ? "" : ", ") + name;
     expect(!names.empty(), "classes to select", lazy_text("at least one of: ", known), "none");
     Dataset part{.source = dataset.source};
-    std::map<std::size_t, std::size_t> new_index;
+    std::map<std::size_t, std::uint32_t> new_index;
     for (const std::string& name : names) {
         const auto found = std::find(dataset.class_names.begin(), dataset.class_names.end(), name);
         expect(found != dataset.class_names.end(), "class to select", lazy_text("one of: ", known),
                lazy_text("'", name, "'"));
         const auto index = std::size_t(found - dataset.class_names.begin());
-        expect(new_index.emplace(index, part.class_names.size()).second, "class to select", "each name once",
-               lazy_text("'", name, "' twice"));
+        expect(new_index.emplace(index, std::uint32_t(part.class_names.size())).second, "class to select",
+               "each name once", lazy_text("'", name, "' twice"));
         part.class_names.push_back(name);
         part.category_ids.push_back(dataset.category_ids.at(index));
     }

@@ -29,6 +29,15 @@ struct EvaluateOptions {
 
 namespace detail {
 
+/// What `measure(rule)` gives for the rule of the options.
+template <class Measure>
+[[nodiscard]] Evaluation with_rule(const EvaluateOptions& options, const Measure& measure) {
+    if (options.rule == EvaluateOptions::Rule::uiuc) return measure(UiucRule{});
+    expect(options.iou_threshold > 0 && options.iou_threshold <= 1, "IoU threshold", "above 0, at most 1",
+           options.iou_threshold);
+    return measure(IouRule{options.iou_threshold});
+}
+
 /// The objects of a data set; where[i] is the image and the annotation of object i.
 struct DatasetTruth {
     std::vector<TruthObject> objects;
@@ -49,9 +58,10 @@ struct DatasetTruth {
 /// Results with the data set's image and category numbers as indices.
 [[nodiscard]] inline std::vector<FoundObject> found_in(const Dataset& dataset,
                                                        std::span<const Result> results) {
-    std::map<std::int64_t, std::size_t> image_of, class_of;
+    std::map<std::int64_t, std::size_t> image_of;
+    std::map<std::int64_t, std::uint32_t> class_of;
     for (std::size_t i = 0; i < dataset.images.size(); ++i) image_of[dataset.images[i].id] = i;
-    for (std::size_t c = 0; c < dataset.category_ids.size(); ++c) class_of[dataset.category_ids[c]] = c;
+    for (std::uint32_t c = 0; c < dataset.category_ids.size(); ++c) class_of[dataset.category_ids[c]] = c;
     const std::string set =
         dataset.source.empty() ? "the data set" : "data set '" + dataset.source.string() + "'";
     std::vector<FoundObject> found;
@@ -95,10 +105,7 @@ template <MatchRule R>
 /// @throws Error as above, and for a threshold that is not above 0 and at most 1.
 [[nodiscard]] inline Evaluation evaluate(const Dataset& dataset, std::span<const Result> results,
                                          const EvaluateOptions& options = {}) {
-    if (options.rule == EvaluateOptions::Rule::uiuc) return evaluate(dataset, results, UiucRule{});
-    expect(options.iou_threshold > 0 && options.iou_threshold <= 1, "IoU threshold", "above 0, at most 1",
-           options.iou_threshold);
-    return evaluate(dataset, results, IouRule{options.iou_threshold});
+    return detail::with_rule(options, [&](const auto& rule) { return evaluate(dataset, results, rule); });
 }
 
 /// @brief An evaluation as JSON text: `classes` {name: {objects, detections, right, ap, eer, best_f1,

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "ism/detect/detection.hpp"
 #include "ism/evaluate/confusion.hpp"
 #include "ism/evaluate/matching.hpp"
 #include "ism/evaluate/precision_recall.hpp"
@@ -131,15 +130,6 @@ template <MatchRule Rule, MaskOverlap Masks = NoMasks>
     if (one_object_each(truth, image_count))
         result.confusion = confusion(truth, found, image_count, class_names.size());
     return result;
-}
-
-/// @brief What was found in image number `image`, for evaluate().
-[[nodiscard]] inline std::vector<FoundObject> found_objects(std::span<const Detection> detections,
-                                                            std::size_t image) {
-    std::vector<FoundObject> found;
-    for (const Detection& d : detections)
-        found.push_back({.image = image, .class_index = d.class_index, .box = d.box, .score = d.score});
-    return found;
 }
 
 }  // namespace ism

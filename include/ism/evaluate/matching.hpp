@@ -6,10 +6,12 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ism/core/geometry.hpp"
@@ -18,18 +20,18 @@ namespace ism {
 
 /// @brief An object that is known to be in an image.
 struct TruthObject {
-    std::size_t image = 0;        ///< index of the image
-    std::size_t class_index = 0;  ///< index of the class
-    Box box;                      ///< pixels
-    bool ignore = false;          ///< a crowd, say: finding it neither helps nor hurts
+    std::size_t image = 0;          ///< index of the image
+    std::uint32_t class_index = 0;  ///< index of the class
+    Box box;                        ///< pixels
+    bool ignore = false;            ///< a crowd, say: finding it neither helps nor hurts
 };
 
 /// @brief An object that a detector says is in an image.
 struct FoundObject {
-    std::size_t image = 0;        ///< index of the image
-    std::size_t class_index = 0;  ///< index of the class
-    Box box;                      ///< pixels
-    double score = 0;             ///< larger is surer
+    std::size_t image = 0;          ///< index of the image
+    std::uint32_t class_index = 0;  ///< index of the class
+    Box box;                        ///< pixels
+    double score = 0;               ///< larger is surer
 };
 
 /// @brief When a found box counts as a true one: `fit` is the quality of the fit (larger is better) or

@@ -18,7 +18,7 @@ namespace ism {
     for (std::size_t c = 0; c < evaluation.classes.size(); ++c) {
         const ClassEvaluation& figures = evaluation.classes[c];
         if (figures.objects == 0) continue;
-        PlotCurve curve{.name = figures.name + ", AP " + detail::percent_text(figures.figures.ap) + " %",
+        PlotCurve curve{.name = figures.name + ", AP " + percent_text(figures.figures.ap) + " %",
                         .color = class_color(c)};
         for (const PrecisionRecallPoint& point : figures.curve.points) {
             // the curve begins at recall 0 with the precision of the surest detections

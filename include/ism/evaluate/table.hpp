@@ -13,13 +13,13 @@
 
 namespace ism {
 
-namespace detail {
-
-/// 0.8345 as "83.5"; NaN as "-".
+/// @brief A share as percent with one decimal: 0.8347 as "83.5", NaN as "-".
 [[nodiscard]] inline std::string percent_text(double share) {
     if (std::isnan(share)) return "-";
     return fixed_text(100 * share, 1);
 }
+
+namespace detail {
 
 /// Number of characters of UTF-8 text.
 [[nodiscard]] inline std::size_t letter_count(const std::string& text) {
@@ -55,7 +55,7 @@ namespace detail {
         {"class", "objects", "found", "right", "AP %", "EER %", "F1 %", "mask IoU %"}};
     const auto add = [&](std::vector<std::string> row, const Figures& figures) {
         for (const double figure : {figures.ap, figures.eer, figures.best_f1, figures.mask_iou})
-            row.push_back(detail::percent_text(figure));
+            row.push_back(percent_text(figure));
         rows.push_back(std::move(row));
     };
     std::size_t objects = 0, detections = 0, right = 0;
@@ -89,7 +89,7 @@ namespace detail {
 [[nodiscard]] inline std::string to_table(const Evaluation& evaluation) {
     std::string text = align_columns(table_cells(evaluation));
     if (!evaluation.confusion) return text;
-    text += "\naccuracy " + detail::percent_text(evaluation.confusion->accuracy()) + " %\n";
+    text += "\naccuracy " + percent_text(evaluation.confusion->accuracy()) + " %\n";
     if (evaluation.classes.size() > 1) {
         text += '\n';
         text += align_columns(table_cells(*evaluation.confusion, evaluation.classes));

@@ -19,9 +19,9 @@
 #endif
 
 #include "ism/core/image.hpp"
-#include "ism/io/image_damage.hpp"
 #include "ism/io/limits.hpp"
 #include "ism/io/png.hpp"
+#include "ism/io/stb_guard.hpp"
 #include "ism/io/write_file.hpp"
 
 namespace ism {

@@ -129,24 +129,4 @@ using Json = nlohmann::json;
     return value;
 }
 
-/// @brief What `read()` gives; where it throws, `place` is put before the message.
-template <class Read>
-auto at_place(const std::string& place, Read&& read) {
-    try {
-        return read();
-    } catch (const Error& error) {
-        throw FileError(place + ": " + error.what());
-    }
-}
-
-/// @brief File names in JSON are UTF-8 with "/".
-[[nodiscard]] inline std::filesystem::path path_from_json(const std::string& text) {
-    return std::filesystem::path(std::u8string(text.begin(), text.end()));
-}
-
-[[nodiscard]] inline std::string path_to_json(const std::filesystem::path& path) {
-    const std::u8string text = path.generic_u8string();
-    return std::string(text.begin(), text.end());
-}
-
 }  // namespace ism::detail

@@ -1,35 +1,54 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+
+/// @file
+/// @brief Writing PNG files by stb_image_write; see ism/io/images.hpp for what a program needs.
 #pragma once
 
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
 
+#if __has_include(<stb/stb_image_write.h>)
+#include <stb/stb_image_write.h>
+#else
+#include <stb_image_write.h>
+#endif
+
 #include "ism/core/image.hpp"
 #include "ism/io/limits.hpp"
-#include "ism/io/png_file.hpp"
+#include "ism/io/stb_guard.hpp"
 #include "ism/io/write_file.hpp"
 
 namespace ism {
 
 namespace detail {
 
-/// @brief The image's samples as PNG wants them: `append(out, pixel)` adds one pixel's bytes.
-template <class T, class Append>
-requires std::invocable < Append, std::vector<std::uint8_t>
-&, const T& > [[nodiscard]] std::vector<std::uint8_t> encode_png(ImageView<const T> image,
-                                                                 std::uint8_t bit_depth,
-                                                                 std::uint8_t color_type, Append append) {
+/// @brief The samples of an image, row after row without gaps.
+template <class T>
+[[nodiscard]] std::vector<T> gapless(ImageView<const T> image) {
     expect(is_image_size(image.width(), image.height()), "image to write", image_size_limits,
            size_text(image));
-    std::vector<std::uint8_t> rows;
-    rows.reserve(std::size_t(image.width()) * std::size_t(image.height()) * sizeof(T));
+    std::vector<T> samples;
+    samples.reserve(std::size_t(image.width()) * std::size_t(image.height()));
     for (int y = 0; y < image.height(); ++y)
-        for (const T& pixel : image.row(y)) append(rows, pixel);
-    return png_file(image.width(), image.height(), bit_depth, color_type, sizeof(T), rows);
+        samples.insert(samples.end(), image.row(y).begin(), image.row(y).end());
+    return samples;
+}
+
+/// @brief Gapless samples of 8 bits, `channels` a pixel, as the bytes of a PNG file.
+[[nodiscard]] inline std::vector<std::uint8_t> stb_png(int width, int height, int channels,
+                                                       const void* samples) {
+    std::vector<std::uint8_t> file;
+    const auto append = [](void* to, void* data, int size) {
+        const auto* bytes = static_cast<const std::uint8_t*>(data);
+        auto& out = *static_cast<std::vector<std::uint8_t>*>(to);
+        out.insert(out.end(), bytes, bytes + size);
+    };
+    expect(stbi_write_png_to_func(append, &file, width, height, channels, samples, 0) != 0, "PNG",
+           "memory to pack it", "none");
+    return file;
 }
 
 }  // namespace detail
@@ -37,24 +56,30 @@ requires std::invocable < Append, std::vector<std::uint8_t>
 /// @brief A colour image as the bytes of a PNG file.
 /// @throws Error where the image is empty or has more than max_image_pixels.
 [[nodiscard]] inline std::vector<std::uint8_t> encode_png(ImageView<const Rgb> image) {
-    return detail::encode_png(image, 8, 2, [](std::vector<std::uint8_t>& out, const Rgb& pixel) {
-        out.insert(out.end(), {pixel.r, pixel.g, pixel.b});
-    });
+    static_assert(sizeof(Rgb) == 3);
+    return detail::stb_png(image.width(), image.height(), 3, detail::gapless(image).data());
 }
 
 /// @brief An 8-bit grey image as the bytes of a PNG file.
 /// @throws Error where the image is empty or has more than max_image_pixels.
 [[nodiscard]] inline std::vector<std::uint8_t> encode_png(ImageView<const std::uint8_t> image) {
-    return detail::encode_png(
-        image, 8, 0, [](std::vector<std::uint8_t>& out, std::uint8_t pixel) { out.push_back(pixel); });
+    return detail::stb_png(image.width(), image.height(), 1, detail::gapless(image).data());
 }
 
 /// @brief A 16-bit grey image, such as a depth camera's, as the bytes of a PNG file.
 /// @throws Error where the image is empty or has more than max_image_pixels.
 [[nodiscard]] inline std::vector<std::uint8_t> encode_png16(ImageView<const std::uint16_t> image) {
-    return detail::encode_png(image, 16, 0, [](std::vector<std::uint8_t>& out, std::uint16_t pixel) {
-        out.insert(out.end(), {std::uint8_t(pixel >> 8), std::uint8_t(pixel & 0xff)});
-    });
+    std::vector<std::uint8_t> samples;
+    for (const std::uint16_t sample : detail::gapless(image))
+        samples.insert(samples.end(), {std::uint8_t(sample >> 8), std::uint8_t(sample & 0xff)});
+    std::vector<std::uint8_t> file = detail::stb_png(image.width(), image.height(), 2, samples.data());
+    // stb writes 8 bits a channel only. 8-bit grey with transparency has the same rows and filters as 16-bit
+    // grey (PNG, section 9.2: both have two bytes a pixel), so only the header differs: it stands at byte 16
+    // after the name of its part at byte 12, bit depth and colour type are its 9th and 10th byte.
+    file[24] = 16, file[25] = 0;
+    const std::uint32_t crc = detail::crc32(detail::ByteSpan(file).subspan(12, 17));
+    for (std::size_t i = 0; i < 4; ++i) file[29 + i] = std::uint8_t(crc >> (24 - 8 * i));
+    return file;
 }
 
 /// @brief Writes a colour image as a PNG file.

@@ -20,15 +20,11 @@
 
 #include "ism/core/error.hpp"
 #include "ism/core/number_text.hpp"
+#include "ism/io/paths.hpp"
 
 namespace ism {
 
 namespace detail {
-
-/// @brief "file 'a/b.png'", for messages.
-[[nodiscard]] inline std::string file_text(const std::filesystem::path& path) {
-    return join_text("file '", path.string(), "'");
-}
 
 /// @brief Why the last call of the operating system failed.
 [[nodiscard]] inline std::string system_reason() {
@@ -97,7 +93,7 @@ void write_file(const std::filesystem::path& path, Write&& write) {
     namespace fs = std::filesystem;
     std::error_code failure;
     const auto status = fs::status(path, failure);
-    const std::string text = detail::file_text(path);
+    const std::string text = file_text(path);
     if (fs::is_directory(status)) throw FileError(text + ": expected a file to write, got a folder");
     if (path.filename().empty()) throw FileError(text + ": expected a file to write, got no file name");
     const bool direct = fs::exists(status) && !fs::is_regular_file(status);

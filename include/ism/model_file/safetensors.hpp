@@ -84,7 +84,7 @@ inline constexpr std::size_t max_header_bytes = std::size_t(1) << 24;
 /// @throws FileError where the file cannot be read, is cut off or longer than it says, holds types other than
 /// TensorType, contradicts itself, or was altered.
 [[nodiscard]] inline TensorFile read_safetensors(const std::filesystem::path& path) {
-    const std::string text = detail::file_text(path);
+    const std::string text = file_text(path);
     std::error_code failure;
     if (!std::filesystem::exists(path, failure))
         throw FileError(text + ": expected a file to read, got none of this name");
@@ -104,7 +104,7 @@ inline constexpr std::size_t max_header_bytes = std::size_t(1) << 24;
 /// the metadata has "data_hash", a tensor's bytes do not fit its shape, or the header becomes too long.
 inline void write_safetensors(const std::filesystem::path& path, const TensorFile& file) {
     using detail::Json;
-    const std::string text = detail::file_text(path);
+    const std::string text = file_text(path);
     if (file.tensors.contains("__metadata__") || file.metadata.contains(detail::checksum_key))
         throw FileError(text + ": expected other names than '__metadata__' and 'data_hash', got one of them");
     Json header = {{"__metadata__", file.metadata}};

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+
+/// @file
+/// @brief The pixels of a data set's images, by stb_image: see ism/io/images.hpp for what a program needs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "ism/core/frame.hpp"
+#include "ism/dataset/dataset.hpp"
+#include "ism/io/images.hpp"
+#include "ism/io/paths.hpp"
+#include "ism/train/training_image.hpp"
+
+namespace ism {
+
+/// @brief Reads an image's brightness, its depth in metres where it has a depth file, and its camera.
+/// @throws FileError, naming the file, where one cannot be read, is of another size than the data set says,
+/// is smaller than 16×16, or has no depth reading at all.
+[[nodiscard]] inline Frame read_frame(const DatasetImage& image) {
+    const auto check_size = [&](const std::filesystem::path& file, const SizeText& size) {
+        if (size.width != image.width || size.height != image.height)
+            throw FileError(join_text(file_text(file), ": expected ", detail::sides_text(image),
+                                      " pixels as its data set says, got ", size));
+    };
+    Frame frame{.gray = read_gray(image.file)};
+    check_size(image.file, size_text(frame.gray));
+    if (!image.depth_file.empty()) {
+        const RawDepth raw = read_raw_depth(image.depth_file);
+        check_size(image.depth_file, size_text(raw));
+        frame.depth_m = to_metres(raw, image.depth_scale);
+    }
+    frame.camera = image.camera;
+    at_place(file_text(image.depth_file.empty() ? image.file : image.depth_file), [&] { check(frame); });
+    return frame;
+}
+
+/// @brief Reads an image and decodes its objects' masks; crowds are left out.
+/// @throws FileError as read_frame() and read_mask() do.
+[[nodiscard]] inline TrainingImage read_training_image(const DatasetImage& image) {
+    TrainingImage training{.frame = read_frame(image), .name = image.file.string()};
+    for (const DatasetAnnotation& object : image.objects)
+        if (!object.crowd)
+            training.objects.push_back(
+                {.class_index = object.class_index, .box = object.box, .mask = read_mask(image, object)});
+    return training;
+}
+
+}  // namespace ism

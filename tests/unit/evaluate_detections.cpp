@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/files.hpp"
+
+#include "ism/dataset/to_results.hpp"
+#include "ism/evaluate/detections.hpp"
+
+using ism::test::error_message;
+
+namespace {
+
+ism::Mask rectangle(int x0, int y0, int width, int height) {
+    ism::Mask mask(30, 20);
+    for (int y = y0; y < y0 + height; ++y)
+        for (int x = x0; x < x0 + width; ++x) mask(x, y) = 1;
+    return mask;
+}
+
+// Two images of 30×20 with a cup, and a bowl in the second whose mask nobody knows.
+ism::Dataset small_set() {
+    ism::Dataset set{.source = "small.json", .class_names = {"cup", "bowl"}, .category_ids = {7, 3}};
+    set.images.resize(2);
+    set.images[0].id = 90, set.images[1].id = 4;
+    for (ism::DatasetImage& image : set.images) image.width = 30, image.height = 20;
+    set.images[0].objects = {{.id = 1,
+                              .class_index = 0,
+                              .box = {0, 0, 10, 10},
+                              .segmentation = ism::compress_mask(rectangle(0, 0, 10, 10))}};
+    set.images[1].objects = {{.id = 2,
+                              .class_index = 0,
+                              .box = {20, 5, 10, 10},
+                              .segmentation = ism::compress_mask(rectangle(20, 5, 10, 10))},
+                             {.id = 3, .class_index = 1, .box = {0, 0, 8, 8}}};
+    return set;
+}
+
+// A detection whose mask is its box from (x, y) on, 12×10, cut off at the right edge where it reaches out.
+ism::Detection detection(unsigned class_index, int x, int y, double score) {
+    ism::Detection found;
+    found.class_index = class_index, found.score = score;
+    found.box = {double(x), double(y), 10, 10};
+    found.segmentation.x = x, found.segmentation.y = y;
+    found.segmentation.mask = ism::Mask(12, 10, 1);
+    return found;
+}
+
+std::vector<ism::Detections> small_detections() {
+    std::vector<ism::Detections> found(2);
+    found[0].objects = {detection(0, 0, 0, 0.9), detection(1, 15, 8, 0.2)};
+    found[1].objects = {detection(1, 0, 0, 0.8), detection(0, 20, 5, 0.7), detection(0, 20, 5, 0.1)};
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("Detections become results with the data set's numbers and masks of the image's size") {
+    const ism::Dataset set = small_set();
+    ism::Detections found = small_detections()[1];
+    found.objects[0].position_m = ism::Point3{1, 2, 3};
+    found.objects[0].depth_m = 3, found.objects[0].scale = 0.5;
+    const auto results = ism::to_results(found, set.images[1], set.category_ids);
+    REQUIRE(results.size() == 3);
+    CHECK(results[0].image_id == 4);
+    CHECK(results[0].category_id == 3);
+    CHECK(results[0].score == 0.8);
+    CHECK(results[0].position_m == ism::Point3{1, 2, 3});
+    CHECK(results[0].depth_m == 3);
+    CHECK(results[0].scale == 0.5);
+    CHECK(results[1].category_id == 7);
+    CHECK(results[1].box == ism::Box{20, 5, 10, 10});
+    REQUIRE(results[1].segmentation);
+    CHECK(ism::decompress_mask(*results[1].segmentation) == rectangle(20, 5, 10, 10));
+    CHECK_FALSE(results[1].position_m);
+
+    const std::vector<std::int64_t> one = {7};
+    CHECK(error_message([&] { (void)ism::to_results(found, set.images[1], one); }) ==
+          "class of a detection: expected one of 1 categories, got 1");
+}
+
+TEST_CASE("Detections are measured as the results made of them") {
+    const ism::Dataset set = small_set();
+    const std::vector<ism::Detections> found = small_detections();
+    const ism::Evaluation direct = ism::evaluate(set, found);
+    CHECK(direct.classes[0].objects == 2);
+    CHECK(direct.classes[0].detections == 3);
+    CHECK(direct.classes[0].right == 2);
+    CHECK(direct.classes[1].right == 1);
+    CHECK(direct.classes[0].figures.ap == 1);
+    // 100 of 120 pixels in the first image; at the right edge all 100
+    CHECK(direct.classes[0].figures.mask_iou == Approx((100.0 / 120 + 1) / 2));
+    CHECK(std::isnan(direct.classes[1].figures.mask_iou));
+
+    std::vector<ism::Result> results;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        for (const ism::Result& result : ism::to_results(found[i], set.images[i], set.category_ids))
+            results.push_back(result);
+    CHECK(ism::to_json(direct) == ism::to_json(ism::evaluate(set, results)));
+    CHECK(ism::to_json(ism::evaluate(set, found, {.iou_threshold = 0.3})) ==
+          ism::to_json(ism::evaluate(set, results, ism::IouRule{0.3})));
+    ism::Dataset crowded = set;
+    crowded.images[0].objects[0].crowd = true;
+    CHECK(ism::evaluate(crowded, found).classes[0].objects == 1);
+    CHECK(ism::evaluate(crowded, found).classes[0].detections == 2);
+}
+
+TEST_CASE("Detections that are not those of the data set are refused") {
+    const ism::Dataset set = small_set();
+    std::vector<ism::Detections> found = small_detections();
+    found.pop_back();
+    CHECK(error_message([&] { (void)ism::evaluate(set, found); }) ==
+          "images with detections: expected 2, got 1");
+    found = small_detections();
+    found[0].objects[0].class_index = 2;
+    CHECK(error_message([&] { (void)ism::evaluate(set, found); }) ==
+          "class of a found object: expected below 2, got 2");
+    CHECK_THROWS_AS(ism::evaluate(set, small_detections(), {.iou_threshold = 0}), ism::Error);
+}
