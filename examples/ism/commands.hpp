@@ -12,7 +12,7 @@
 
 #include "ism/core/camera.hpp"
 #include "ism/evaluate/coco.hpp"
-#include "ism/train/train.hpp"
+#include "ism/train/train_options.hpp"
 
 namespace program {
 
@@ -26,6 +26,7 @@ inline constexpr std::array<std::string_view, 2> descriptor_names = {"sift", "ro
 inline constexpr std::string_view default_detector = "hessian-laplace";
 inline constexpr std::string_view default_descriptor = "root-sift";
 inline constexpr std::string_view default_space = "jism";
+inline constexpr std::string_view default_rescorer = "boxes";
 inline constexpr std::string_view default_verifier = "mdl";
 
 struct TrainCommand {
@@ -35,11 +36,12 @@ struct TrainCommand {
     ism::TrainOptions options = {};
     bool skip_bad = false;
     std::filesystem::path add_to = {};  ///< model that learns more; empty = a new one
+    bool growable = false;              ///< keep the training features, for add_to
 };
 
 /// How objects are searched for, whatever the vote space.
 struct SearchOptions {
-    std::string space{default_space}, verifier{default_verifier};
+    std::string space{default_space}, rescorer{default_rescorer}, verifier{default_verifier};
     std::optional<double> keep = {};  ///< none = the library's
 };
 

@@ -4,21 +4,27 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 
 #include "commands.hpp"
+#include "extractors.hpp"
 #include "input.hpp"
-#include "models.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "spaces.hpp"
 #include "toy/toy_set.hpp"
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/dataset/to_results.hpp"
+#include "ism/detect/frame_matcher.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"
+#include "ism/model_file/model_file.hpp"
 #include "ism/show/report_detections.hpp"
+#include "ism/train/extract_training_features.hpp"
+#include "ism/train/learn.hpp"
 
 namespace program {
 
@@ -160,14 +166,17 @@ void run_demo(const DemoCommand& command) {
     const double render_seconds = watch.seconds();
 
     const Stopwatch train_watch;
-    Lessons lessons{.dataset = set.train, .options = {}};
-    lessons.options.threads = command.threads;
-    lessons.options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
+    ism::TrainOptions options{.threads = command.threads};
+    options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
         progress.tell(stage, done, total);
     };
-    const AnyModel model = learn_any(default_detector, default_descriptor, lessons);
-    save_any(folder / "model.safetensors", model);
-    const ism::Shapes& shapes = shapes_of(model);
+    const auto features =
+        ism::extract_training_features(set.train.class_names, ism::training_set(set.train),
+                                       {make_extractor(default_detector, default_descriptor)},
+                                       options.features, options.threads, options.progress);
+    const ism::Model model = ism::learn(features, options);
+    ism::save_model(folder / "model.safetensors", model);
+    const ism::ShapeModel& shapes = model.shapes;
     const double train_seconds = train_watch.seconds();
 
     const std::size_t count = set.test.images.size();
@@ -175,19 +184,22 @@ void run_demo(const DemoCommand& command) {
     std::vector<SceneOutcome> scenes(count);
     std::vector<ism::ReportSection> sections(std::min(count, report_scenes));
     ism::ThreadPool pool(command.threads);
-    std::vector<PictureMatcher> matchers;
-    for (unsigned worker = 0; worker < pool.size(); ++worker) matchers.push_back(make_any_matcher(model, 1));
+    const std::vector<ism::AnyExtractor> extractors = extractors_of(model);
+    std::deque<ism::ThreadPool> single;  // one a worker
+    std::deque<ism::FrameMatcher> matchers;
+    for (unsigned worker = 0; worker < pool.size(); ++worker)
+        matchers.emplace_back(model, extractors, single.emplace_back(1u));
     pool.for_each(count, [&](std::size_t i, unsigned worker) {
         const ism::DatasetImage& image = set.test.images[i];
         const ism::Frame frame = ism::read_frame(image);
         const Stopwatch look_watch;
-        const ism::MatchedFeatures matched = matchers[worker](frame);
+        const ism::Scene scene = matchers[worker].scene(frame);
         const double look_seconds = look_watch.seconds();
         for (std::size_t s = 0; s < space_names.size(); ++s) {
             SearchOptions search;
             search.space = space_names[s];
             const Stopwatch search_watch;
-            const ism::Detections found = find_objects(matched, shapes, frame, search, 1);
+            const ism::Detections found = find_objects(scene, search);
             scenes[i].seconds[s] = look_seconds + search_watch.seconds();
             scenes[i].results[s] = ism::to_results(found, image, set.test.category_ids);
             if (space_names[s] != default_space) continue;
@@ -226,7 +238,7 @@ void run_demo(const DemoCommand& command) {
         {"classes", list_text(shapes.class_names)},
         {"features", ism::join_text(default_detector, ", ", default_descriptor)},
         {"model",
-         ism::join_text(shapes.first.size() - 1, " words, ", shapes.occurrences.size(), " occurrences")}};
+         ism::join_text(model.words(), " words, ", shapes.occurrences.values().size(), " occurrences")}};
     ism::ReportSection figures{.title = "How well the toys were found"};
     figures.parts.push_back(ism::ReportTable{
         .caption = "Means over the classes; a box is right from an IoU of 0.5. Position: from the middle of "

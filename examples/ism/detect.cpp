@@ -2,17 +2,21 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdio>
+#include <deque>
 
 #include "commands.hpp"
+#include "extractors.hpp"
 #include "input.hpp"
-#include "models.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "spaces.hpp"
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/dataset/to_results.hpp"
+#include "ism/detect/frame_matcher.hpp"
+#include "ism/model_file/model_file.hpp"
 #include "ism/show/report_detections.hpp"
 
 namespace program {
@@ -23,7 +27,7 @@ namespace {
 constexpr std::size_t report_images = 12, report_rows = 2;
 
 /// The one image of the command line as a data set; class c of the model has the number c + 1.
-ism::Dataset single_image(const DetectCommand& command, const ism::Shapes& shapes) {
+ism::Dataset single_image(const DetectCommand& command, const ism::ShapeModel& shapes) {
     ism::Dataset dataset{.source = {}, .class_names = shapes.class_names};
     for (std::size_t c = 0; c < shapes.class_names.size(); ++c)
         dataset.category_ids.push_back(std::int64_t(c) + 1);
@@ -39,7 +43,7 @@ ism::Dataset single_image(const DetectCommand& command, const ism::Shapes& shape
 }
 
 /// The data set's number of each class of the model.
-std::vector<std::int64_t> category_ids(const ism::Dataset& dataset, const ism::Shapes& shapes) {
+std::vector<std::int64_t> category_ids(const ism::Dataset& dataset, const ism::ShapeModel& shapes) {
     std::vector<std::int64_t> ids;
     for (const std::string& name : shapes.class_names) {
         const auto found = std::find(dataset.class_names.begin(), dataset.class_names.end(), name);
@@ -72,8 +76,8 @@ void run_detect(const DetectCommand& command) {
             check_output(output, std::array{command.model, command.data, command.image, command.depth});
     ism::expect(command.report.empty() || command.report != command.results, "report", "another file than -o",
                 "the same");
-    const AnyModel model = load_any(command.model);
-    const ism::Shapes& shapes = shapes_of(model);
+    const ism::Model model = ism::load_model(command.model);
+    const ism::ShapeModel& shapes = model.shapes;
     ism::Dataset dataset =
         command.image.empty() ? ism::read_dataset(command.data) : single_image(command, shapes);
     const std::vector<std::int64_t> ids = category_ids(dataset, shapes);
@@ -100,14 +104,15 @@ void run_detect(const DetectCommand& command) {
         // Several images are shared out among the threads; on a single one all threads work together.
         const unsigned inner = count > 1 ? 1 : command.threads;
         ism::ThreadPool pool(count > 1 ? command.threads : 1);
-        std::vector<PictureMatcher> matchers;
+        const std::vector<ism::AnyExtractor> extractors = extractors_of(model);
+        std::deque<ism::ThreadPool> inner_pools;  // one a worker
+        std::deque<ism::FrameMatcher> matchers;
         for (unsigned worker = 0; worker < pool.size(); ++worker)
-            matchers.push_back(make_any_matcher(model, inner));
+            matchers.emplace_back(model, extractors, inner_pools.emplace_back(inner));
         pool.for_each(count, [&](std::size_t i, unsigned worker) {
             const ism::DatasetImage& image = dataset.images[i];
             const ism::Frame frame = ism::read_frame(image);
-            const ism::Detections found =
-                find_objects(matchers[worker](frame), shapes, frame, command.search, inner);
+            const ism::Detections found = find_objects(matchers[worker].scene(frame), command.search);
             results[i] = ism::to_results(found, image, ids);
             if (overlays || i < sections.size()) {
                 const ism::RgbImage picture = ism::read_rgb(image.file);

@@ -9,20 +9,30 @@
 
 namespace program {
 
-void run_info(const std::filesystem::path& model) {
-    const ism::ModelInfo info = ism::read_model_info(model);
-    std::printf("format          ism model, version %lld\n", static_cast<long long>(info.format_version));
-    std::printf("detector        %s\n", info.detector.c_str());
-    std::printf("descriptor      %s, %zu x %s\n", info.descriptor.c_str(), info.dimension,
-                info.scalar.c_str());
-    std::printf("classes         %s\n", list_text(info.class_names).c_str());
-    std::printf("objects         %zu\n", info.objects);
-    std::printf("words           %zu\n", info.words);
-    std::printf("occurrences     %zu\n", info.occurrences);
-    std::printf("upsampling      %g\n", info.upsampling);
-    std::printf("match within    %g (squared distance)\n", info.max_sq_distance);
-    std::printf("reference size  %g px\n", info.reference_size_px);
-    std::printf("parameters      %s\n", info.parameters.c_str());
+void run_info(const std::filesystem::path& path) {
+    const ism::Model model = ism::load_model(path);
+    const ism::TrainingSummary& training = model.training;
+    std::printf("format          ism model, version %lld\n",
+                static_cast<long long>(ism::detail::model_format_version));
+    std::printf("classes         %s\n", list_text(model.shapes.class_names).c_str());
+    std::printf("images          %zu\n", training.images);
+    std::printf("objects         %zu\n", model.shapes.objects.size());
+    std::printf("features        %zu of %zu on the objects\n", training.features_used,
+                training.features_found);
+    std::printf("words           %zu\n", model.words());
+    std::printf("occurrences     %zu\n", model.shapes.occurrences.values().size());
+    std::printf("box classifier  %s\n", model.box_classifier.empty() ? "no" : "yes");
+    std::printf("probabilities   %s\n", model.calibration.empty() ? "no" : "yes");
+    std::printf("reference size  %g px\n", ism::reference_size_px);
+    for (const ism::Channel& channel : model.channels) {
+        const ism::FeatureSettings& settings = channel.features;
+        std::printf("detector        %s\n", settings.detector.c_str());
+        std::printf("descriptor      %s, %zu numbers\n", settings.descriptor.c_str(), settings.dimension);
+        std::printf("upsampling      %g\n", settings.options.upsampling);
+        std::printf("match within    %g (squared distance)\n", channel.codebook.max_sq_distance());
+        std::printf("parameters      %s\n",
+                    ism::detail::settings_to_json(settings, path.string()).dump().c_str());
+    }
 }
 
 }  // namespace program

@@ -7,14 +7,12 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "models.hpp"
 #include <CLI/CLI.hpp>
 
+#include "ism/detect/detect_options.hpp"
 #include "ism/version.hpp"
 
 namespace {
-
-using program::default_keep;
 
 std::vector<std::string> texts(std::span<const std::string_view> views) {
     return {views.begin(), views.end()};
@@ -44,45 +42,56 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
     app.add_option_function<std::string>(
            "--codebook",
            [&command](const std::string& kind) {
-               command.options.codebook =
+               command.options.codebook.kind =
                    kind == "joint" ? ism::CodebookKind::joint : ism::CodebookKind::per_class;
            },
            "whether classes share words")
         ->check(CLI::IsMember({"joint", "per-class"}))
         ->default_str("joint");
-    app.add_option("--similarity", command.options.min_similarity, "least similarity in clusters and matches")
+    app.add_option("--similarity", command.options.codebook.min_similarity,
+                   "least similarity in clusters and matches")
         ->check(CLI::Range(-1.0, 1.0))
         ->capture_default_str();
-    app.add_option("--min-cluster-size", command.options.min_cluster_size,
+    app.add_option("--min-cluster-size", command.options.codebook.min_cluster_size,
                    "features that make a word, at least")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    app.add_option("--min-information-gain", command.options.min_information_gain,
+    app.add_option("--min-information-gain", command.options.selection.min_information_gain,
                    "least information of a word about the class")
         ->capture_default_str();
-    app.add_option("--max-words", command.options.max_words, "keep so many of the best words; 0 = all")
+    app.add_option("--max-words", command.options.selection.max_words,
+                   "keep so many of the best words; 0 = all")
         ->capture_default_str();
     app.add_option_function<std::string>(
            "--best-words",
            [&command](const std::string& measure) {
-               command.options.measure = measure == "occurrences" ? ism::WordMeasure::occurrences
-                                         : measure == "gain"      ? ism::WordMeasure::information_gain
-                                                                  : ism::WordMeasure::vote_agreement;
+               command.options.selection.measure = measure == "occurrences" ? ism::WordMeasure::occurrences
+                                                   : measure == "gain" ? ism::WordMeasure::information_gain
+                                                                       : ism::WordMeasure::vote_agreement;
            },
            "what --max-words goes by: how often a word is seen, its information gain, or how well its votes "
            "agree")
         ->check(CLI::IsMember({"occurrences", "gain", "agreement"}))
         ->default_str("agreement");
-    app.add_option("--seed", command.options.seed, "of random choices")->capture_default_str();
-    CLI::Option* add_to = app.add_option("--add-to", command.add_to,
-                                         "model to teach more classes, or more examples of its classes; its "
-                                         "features and similarity stay; see --growable");
+    app.add_option("--max-features", command.options.features.max_features,
+                   "features on all objects together; of more each object gives its strongest, at least 30")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    app.add_option("--max-cluster-features", command.options.codebook.max_features,
+                   "of more features a random part is clustered; all are matched")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    app.add_option("--seed", command.options.codebook.seed, "of random choices")->capture_default_str();
+    CLI::Option* add_to =
+        app.add_option("--add-to", command.add_to,
+                       "model to teach more classes, or more examples of its classes; it was "
+                       "trained with --growable, and its features and similarity stay");
     for (const char* fixed : {"--detector", "--descriptor", "--codebook", "--similarity",
                               "--min-information-gain", "--max-words", "--best-words"})
         add_to->excludes(app.get_option(fixed));
     CLI::Option* growable =
-        app.add_flag("--growable", command.options.memory,
-                     "keep all descriptors, so that --add-to loses little; a larger file");
+        app.add_flag("--growable", command.growable,
+                     "keep all training features, which --add-to learns from again; a larger file");
     add_to->excludes(growable);
     add_threads(app, command.options.threads);
     add_skip_bad(app, command.skip_bad);
@@ -114,7 +123,11 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
         ->capture_default_str();
     app.add_option("--keep", command.search.keep, "drop what scores less than this part of the image's best")
         ->check(CLI::Range(0.0, 1.0))
-        ->default_str(ism::join_text(default_keep()));
+        ->default_str(ism::join_text(ism::DetectOptions{}.min_relative_score));
+    app.add_option("--rescore", command.search.rescorer,
+                   "what judges hypotheses beside their votes: the words in their boxes, or nothing")
+        ->check(CLI::IsMember({"boxes", "none"}))
+        ->capture_default_str();
     app.add_option("--verify", command.search.verifier, "how overlapping hypotheses are sorted out")
         ->check(CLI::IsMember({"mdl", "nms"}))
         ->capture_default_str();

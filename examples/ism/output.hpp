@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "models.hpp"
-
 #include "ism/core/image.hpp"
+#include "ism/dataset/dataset.hpp"
+#include "ism/detect/detection.hpp"
 #include "ism/show/report.hpp"
 
 namespace program {

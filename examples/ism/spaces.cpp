@@ -1,33 +1,44 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include "spaces.hpp"
+
+#include <algorithm>
+#include <array>
 #include <utility>
 
-#include "models.hpp"
-
-#include "ism/detect/detect.hpp"
+#include "ism/detect/recognition.hpp"
 
 namespace program {
 
 namespace {
 
-/// A verifier chosen at run time.
-struct ChosenVerifier {
-    bool suppression = false;
-    [[nodiscard]] std::vector<ism::Verified> verify(std::span<const ism::Detection> hypotheses) const {
-        if (suppression) return ism::NonMaximumSuppression{}.verify(hypotheses);
-        return ism::Mdl{}.verify(hypotheses);
+/// A rescorer chosen at run time.
+struct ChosenRescorer {
+    bool boxes = true;
+    [[nodiscard]] std::vector<ism::Detection> rescore(std::vector<ism::Detection> hypotheses,
+                                                      const ism::Scene& scene) const {
+        return boxes ? ism::BoxClassifierScore{}.rescore(std::move(hypotheses), scene) : hypotheses;
     }
 };
 
-template <ism::AnyVoteSpace Space>
-ism::Detections find_in(ism::MatchedFeatures matched, const ism::Shapes& shapes, const ism::Frame& frame,
-                        const SearchOptions& search, unsigned threads) {
-    ism::DetectOptions<Space> options;
-    options.keep = search.keep.value_or(options.keep);
-    options.threads = threads;
-    const ChosenVerifier verifier{.suppression = search.verifier == "nms"};
-    return ism::detect_from_matches<Space>(std::move(matched.features), matched.matches, shapes, frame,
-                                           options, verifier);
+/// A verifier chosen at run time.
+struct ChosenVerifier {
+    bool suppression = false;
+    [[nodiscard]] std::vector<ism::Verified> verify(std::span<const ism::Detection> hypotheses,
+                                                    const ism::Scene& scene) const {
+        return suppression ? ism::NonMaximumSuppression{}.verify(hypotheses, scene)
+                           : ism::Mdl{}.verify(hypotheses, scene);
+    }
+};
+
+template <ism::VoteSpaceType Space>
+ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
+    ism::Recognition<Space, ism::EpanechnikovKernel, ChosenRescorer, ism::PatchSegmenter, ChosenVerifier>
+        recognition;
+    recognition.options.min_relative_score = search.keep.value_or(recognition.options.min_relative_score);
+    recognition.rescorer.boxes = search.rescorer == "boxes";
+    recognition.verifier.suppression = search.verifier == "nms";
+    return ism::recognise(std::move(scene), recognition);
 }
 
 /// The spaces in the order of space_names.
@@ -45,17 +56,12 @@ std::size_t space_index(std::string_view name) {
 
 }  // namespace
 
-ism::Detections find_objects(ism::MatchedFeatures matched, const ism::Shapes& shapes, const ism::Frame& frame,
-                             const SearchOptions& search, unsigned threads) {
-    return finders[space_index(search.space)](std::move(matched), shapes, frame, search, threads);
+ism::Detections find_objects(ism::Scene scene, const SearchOptions& search) {
+    return finders[space_index(search.space)](std::move(scene), search);
 }
 
 bool needs_depth(std::string_view space) {
     return depth_needed[space_index(space)];
-}
-
-double default_keep() {
-    return ism::DetectOptions<ism::Jism>{}.keep;
 }
 
 }  // namespace program

@@ -1,60 +1,100 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cstdio>
-#include <set>
+#include <optional>
 
 #include "commands.hpp"
+#include "extractors.hpp"
 #include "input.hpp"
-#include "models.hpp"
 #include "progress.hpp"
 
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/model_file/model_file.hpp"
+#include "ism/train/extract_training_features.hpp"
+#include "ism/train/learn.hpp"
 
 namespace program {
+
+namespace {
+
+/// What a model was learnt from, to go on with.
+struct Known {
+    ism::TrainingFeatures features;
+    std::vector<ism::AnyExtractor> extractors;
+};
+
+/// The lessons of a model, and the options that it was learnt with.
+Known lessons_of(const std::filesystem::path& path, ism::TrainOptions& options) {
+    const ism::Model model = ism::load_model(path);
+    const ism::Channel& channel = model.channels.front();
+    options.codebook.min_similarity =
+        1 - channel.codebook.max_sq_distance() / (2 * channel.features.sq_length);
+    const auto groups = channel.codebook.groups();
+    if (std::any_of(groups.begin(), groups.end(), [](std::uint32_t group) { return group > 0; }))
+        options.codebook.kind = ism::CodebookKind::per_class;
+    options.features.choose_upsampling = false;
+    return {ism::load_training_features(path), extractors_of(model)};
+}
+
+/// The images of a data set, named as seen from its folder.
+ism::TrainingSet named_images(const ism::Dataset& dataset) {
+    ism::TrainingSet set = ism::training_set(dataset);
+    set.image = [&dataset](std::size_t i) {
+        ism::TrainingImage image = ism::read_training_image(dataset.images[i]);
+        image.name = short_name(dataset, dataset.images[i]);
+        return image;
+    };
+    return set;
+}
+
+}  // namespace
 
 void run_train(const TrainCommand& command) {
     const Stopwatch watch;
     check_output(command.model, std::array{command.data, command.add_to});
-    std::string detector = command.detector, descriptor = command.descriptor;
-    if (!command.add_to.empty()) {
-        const ism::ModelInfo info = ism::read_model_info(command.add_to);
-        detector = info.detector, descriptor = info.descriptor;
-    }
+    ism::TrainOptions options = command.options;
+    ism::check(options);
+    std::optional<Known> known;
+    if (!command.add_to.empty()) known = lessons_of(command.add_to, options);
     ism::Dataset dataset = ism::read_dataset(command.data);
     if (!command.classes.empty()) dataset = ism::select_classes(dataset, command.classes);
     const std::size_t skipped =
-        check_images(dataset, command.options.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
+        check_images(dataset, options.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
             ism::TrainingImage training = ism::read_training_image(image);
             training.name = ism::file_text(image.file);
-            ism::detail::check_training_image(training, dataset.class_names.size());
+            ism::check(training, dataset.class_names.size());
         });
 
     ProgressLine progress;
-    Lessons lessons{.dataset = dataset, .options = command.options, .add_to = command.add_to};
-    lessons.options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
+    options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
         progress.tell(stage, done, total);
     };
-    const AnyModel model = learn_any(detector, descriptor, lessons);
-    save_any(command.model, model);
+    const auto extractors =
+        known ? known->extractors : std::vector{make_extractor(command.detector, command.descriptor)};
+    ism::TrainingFeatures features =
+        ism::extract_training_features(dataset.class_names, named_images(dataset), extractors,
+                                       options.features, options.threads, options.progress);
+    if (known) features = ism::append(std::move(known->features), std::move(features));
+    const ism::Model model = ism::learn(features, options);
+    ism::save_model(command.model, model, command.growable || known ? &features : nullptr);
     progress.clear();
 
-    const ism::Shapes& shapes = shapes_of(model);
-    std::set<std::uint32_t> features;
-    for (const ism::Occurrence& o : shapes.occurrences) features.insert(o.feature);
-    std::printf("model        %s (%s, %s)\n", command.model.string().c_str(), detector.c_str(),
-                descriptor.c_str());
-    std::printf("classes      %s\n", list_text(shapes.class_names).c_str());
-    std::printf("images       %zu\n", dataset.images.size());
+    const ism::FeatureSettings& settings = model.channels.front().features;
+    const ism::TrainingSummary& summary = model.training;
+    std::printf("model        %s (%s, %s)\n", command.model.string().c_str(), settings.detector.c_str(),
+                settings.descriptor.c_str());
+    std::printf("classes      %s\n", list_text(model.shapes.class_names).c_str());
+    std::printf("images       %zu\n", summary.images);
     if (skipped > 0) std::printf("skipped      %zu\n", skipped);
-    std::printf("objects      %zu\n", shapes.objects.size());
-    std::printf("features     %zu\n", features.size());
-    std::printf("words        %zu\n", shapes.first.size() - 1);
-    std::printf("occurrences  %zu\n", shapes.occurrences.size());
-    std::printf("upsampling   %.3g\n",
-                std::visit([](const auto& m) { return m.extractor.options.upsampling; }, model));
+    std::printf("objects      %zu\n", model.shapes.objects.size());
+    std::printf("features     %zu", summary.features_used);
+    if (summary.features_used < summary.features_found)
+        std::printf(" of %zu, the strongest of each object (--max-features %zu)", summary.features_found,
+                    options.features.max_features);
+    std::printf("\nwords        %zu\n", model.words());
+    std::printf("occurrences  %zu\n", model.shapes.occurrences.values().size());
+    std::printf("upsampling   %.3g\n", settings.options.upsampling);
     std::printf("seconds      %.1f\n", watch.seconds());
 }
 

@@ -5,14 +5,18 @@
 /// @brief The pixels of a data set's images, by stb_image: see ism/io/images.hpp for what a program needs.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "ism/core/frame.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/io/images.hpp"
 #include "ism/io/paths.hpp"
 #include "ism/train/training_image.hpp"
+#include "ism/train/training_set.hpp"
 
 namespace ism {
 
@@ -46,6 +50,20 @@ namespace ism {
             training.objects.push_back(
                 {.class_index = object.class_index, .box = object.box, .mask = read_mask(image, object)});
     return training;
+}
+
+/// @brief The images of a data set to learn from: labels without opening a file, images when they are needed.
+/// @param dataset  has to stay as long as the set
+[[nodiscard]] inline TrainingSet training_set(const Dataset& dataset) {
+    return {.size = dataset.images.size(),
+            .labels =
+                [&dataset](std::size_t i) {
+                    std::vector<ObjectLabel> labels;
+                    for (const DatasetAnnotation& object : dataset.images[i].objects)
+                        if (!object.crowd) labels.push_back({std::uint32_t(object.class_index), object.box});
+                    return labels;
+                },
+            .image = [&dataset](std::size_t i) { return read_training_image(dataset.images[i]); }};
 }
 
 }  // namespace ism

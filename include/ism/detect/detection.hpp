@@ -69,9 +69,9 @@ struct DetectionStats {
 
 /// @brief All that was found in an image, with the features it was found by.
 struct Detections {
-    std::vector<Detection> objects;  ///< strongest first
-    std::vector<Feature> features;   ///< what Support::feature points into
-    DetectionStats stats;
+    std::vector<Detection> objects = {};  ///< strongest first
+    std::vector<Feature> features = {};   ///< what Support::feature points into
+    DetectionStats stats = {};
 };
 
 }  // namespace ism

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ism/io/json.hpp"
+#include "ism/io/paths.hpp"
 #include "ism/io/write_file.hpp"
 #include "ism/model/model.hpp"
 #include "ism/model_file/judge_tensors.hpp"
@@ -157,7 +158,7 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
 /// nothing is written then.
 inline void save_model(const std::filesystem::path& path, const Model& model,
                        const TrainingFeatures* lessons = nullptr) {
-    TensorFile file = detail::model_to_tensors(model, detail::file_text(path));
+    TensorFile file = detail::model_to_tensors(model, file_text(path));
     static_cast<void>(detail::model_from_tensors(file));
     if (lessons != nullptr) detail::training_to_tensors(*lessons, file);
     write_safetensors(path, file);
@@ -176,8 +177,7 @@ inline void save_model(const std::filesystem::path& path, const Model& model,
 template <Detector D, Descriptor Desc>
 [[nodiscard]] TypedModel<D, Desc> load_model(const std::filesystem::path& path) {
     Model model = load_model(path);
-    return detail::at_place(detail::file_text(path),
-                            [&] { return TypedModel<D, Desc>(std::move(model)); });
+    return at_place(file_text(path), [&] { return TypedModel<D, Desc>(std::move(model)); });
 }
 
 /// @brief Reads the training features that save_model() kept beside a model: what learn() made it of.

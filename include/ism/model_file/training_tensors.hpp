@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/io/paths.hpp"
 #include "ism/model_file/shape_tensors.hpp"
 #include "ism/model_file/tensor.hpp"
 #include "ism/train/training_features.hpp"
@@ -141,7 +142,8 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
         for (std::size_t i = offsets[v]; i < offsets[v + 1]; ++i) {
             const ObjectLabel label{labels[i],
                                     {boxes[4 * i], boxes[4 * i + 1], boxes[4 * i + 2], boxes[4 * i + 3]}};
-            check(label, classes, lazy_text(file.source, ", image ", v));
+            at_place(join_text(file.source, ", image ", v),
+                     [&] { check(label, classes, view.width, view.height); });
             view.labels.push_back(label);
         }
         all.views.push_back(std::move(view));

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ism/core/box_check.hpp"
 #include "ism/core/error.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/geometry.hpp"
@@ -37,38 +37,31 @@ struct TrainingImage {
     std::string name = {};  ///< for messages; a file name, say
 };
 
-/// @brief Validates a label.
-/// @throws Error for a class that is not below `classes`, or a box that cannot be one of an object.
-inline void check(const ObjectLabel& label, std::size_t classes, TextPart image) {
-    const Box& box = label.box;
-    expect(label.class_index < classes, lazy_text(image, ": class of an object"),
-           lazy_text("an index below ", classes), label.class_index);
-    const bool finite =
-        std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(box.width) && std::isfinite(box.height);
-    constexpr double most = 1e6;  // px
-    expect(finite && std::abs(box.x) <= most && std::abs(box.y) <= most && box.width >= 1 &&
-               box.height >= 1 && box.width <= most && box.height <= most,
-           lazy_text(image, ": box of an object"), "finite numbers within 1e6 px, sides of 1 px or more",
-           lazy_text(box.x, ", ", box.y, ", ", box.width, ", ", box.height));
+/// @brief Validates a label in an image of `width` × `height` pixels.
+/// @throws Error for a class that is not below `classes`, or a box that check_labelled_box() refuses.
+inline void check(const ObjectLabel& label, std::size_t classes, int width, int height) {
+    expect(label.class_index < classes, "class of an object", lazy_text("an index below ", classes),
+           label.class_index);
+    check_labelled_box(label.box, width, height);
 }
 
 /// @brief Validates a training image and its labels.
 /// @throws Error, which names the image, for a frame that check(Frame) refuses, a label that is refused, or a
 /// mask of another size or without figure.
 inline void check(const TrainingImage& image, std::size_t classes) {
+    const GrayImage& gray = image.frame.gray;
     try {
         check(image.frame);
+        for (const LabelledObject& object : image.objects) {
+            check(object.label(), classes, gray.width(), gray.height());
+            if (object.mask.empty()) continue;
+            expect(object.mask.width() == gray.width() && object.mask.height() == gray.height(), "mask size",
+                   size_text(gray), size_text(object.mask));
+            const std::size_t area = mask_area(object.mask);
+            expect(area > 1, "mask", "at least 2 figure pixels", area);
+        }
     } catch (const Error& error) {
         throw Error(join_text(image.name, ": ", error.what()));
-    }
-    const GrayImage& gray = image.frame.gray;
-    for (const LabelledObject& object : image.objects) {
-        check(object.label(), classes, image.name);
-        if (object.mask.empty()) continue;
-        expect(object.mask.width() == gray.width() && object.mask.height() == gray.height(),
-               lazy_text(image.name, ": mask size"), size_text(gray), size_text(object.mask));
-        const std::size_t area = mask_area(object.mask);
-        expect(area > 1, lazy_text(image.name, ": mask"), "at least 2 figure pixels", area);
     }
 }
 

@@ -12,9 +12,9 @@
 namespace ism::detail {
 
 /// Votes that are added side by side, whatever the processor: the bits of the sums do not depend on it.
-inline constexpr std::size_t lanes = 16;
+inline constexpr std::size_t vote_lanes = 16;
 
-using Lanes = std::array<float, lanes>;
+using Lanes = std::array<float, vote_lanes>;
 
 [[nodiscard]] inline double sum_of(const Lanes& values) {
     double sum = 0;
@@ -52,13 +52,13 @@ template <class Sums, std::size_t Dimension>
 void add_run(Sums& sums, const VoteColumns<Dimension>& votes, const FloatWindow<Dimension>& window,
              std::size_t first, std::size_t last) {
     Sums local = sums;
-    for (; first + lanes <= last; first += lanes)
-        for (std::size_t l = 0; l < lanes; ++l)
+    for (; first + vote_lanes <= last; first += vote_lanes)
+        for (std::size_t l = 0; l < vote_lanes; ++l)
             local.add(l, votes, window, first + l, votes.weight[first + l]);
     if (first < last) {
         Lanes tail{};
         for (std::size_t l = 0; first + l < last; ++l) tail[l] = votes.weight[first + l];
-        for (std::size_t l = 0; l < lanes; ++l) local.add(l, votes, window, first + l, tail[l]);
+        for (std::size_t l = 0; l < vote_lanes; ++l) local.add(l, votes, window, first + l, tail[l]);
     }
     sums = local;
 }

@@ -54,7 +54,7 @@ struct ScoreSum {
 template <class Sums, Kernel K, std::size_t Dimension>
 [[nodiscard]] Sums sum_window(const VoteGrid<Dimension>& grid, const FloatWindow<Dimension>& place,
                               const std::array<double, Dimension>& window) {
-    static_assert(lanes <= VoteGrid<Dimension>::padding);
+    static_assert(vote_lanes <= VoteGrid<Dimension>::padding);
     std::array<double, Dimension> at;
     std::copy(place.centre.begin(), place.centre.end(), at.begin());
     const VoteColumns<Dimension> votes(grid);
