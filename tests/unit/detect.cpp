@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -29,20 +30,24 @@ ism::Detection block(int x, int y, int width, int height, double score, float ce
 
 TEST_CASE("segmentation lays mask patches over the features that voted") {
     // One training object of 200 × 200 px whose left half is figure.
-    ism::Shapes shapes;
+    ism::Model model;
+    ism::ShapeModel& shapes = model.shapes;
     shapes.class_names = {"half"};
     shapes.objects = {
         {.class_index = 0, .width = 200, .height = 200, .mask = ism::Mask(100, 100), .image = ""}};
     for (int y = 0; y < 100; ++y)
         for (int x = 0; x < 50; ++x) shapes.objects[0].mask(x, y) = 255;
     // A feature in its very centre, found half as large at (80, 60): the object is 100 px there.
-    shapes.occurrences = {{.x = 0, .y = 0, .scale = 8, .weight = 1}};
-    shapes.first = {0, 1};
-    const std::vector<ism::Feature> features{{.x = 80, .y = 60, .scale = 4}};
-    const std::vector<ism::Support> support{{.feature = 0, .word = 0, .occurrence = 0, .weight = 0.3f}};
-    const ism::Box box = ism::box_around({80, 60}, 100, 100);
-    const auto part =
-        ism::segment(features, shapes, support, box, 200, 200, {.patch_radius = 5});  // patch: ± 20 px
+    shapes.occurrences.push_back(std::vector<ism::Occurrence>{{.x = 0, .y = 0, .scale = 8, .weight = 1}});
+    ism::Detection hypothesis;
+    hypothesis.support = {{.feature = 0, .word = 0, .occurrence = 0, .weight = 0.3f}};
+    hypothesis.box = ism::box_around({80, 60}, 100, 100);
+    const ism::Frame frame{.gray = ism::GrayImage(200, 200)};
+    ism::ThreadPool pool(1);
+    ism::Scene scene{.frame = frame, .model = model, .pool = pool};
+    scene.features = {{.x = 80, .y = 60, .scale = 4}};
+    const ism::PatchSegmenter segmenter{.patch_radius = 5};  // patch: ± 20 px
+    const auto part = segmenter.segment(hypothesis, scene);
 
     const auto figure = [&](int x, int y) { return part.figure(x - part.x, y - part.y); };
     const auto ground = [&](int x, int y) { return part.ground(x - part.x, y - part.y); };
@@ -58,21 +63,32 @@ TEST_CASE("segmentation lays mask patches over the features that voted") {
     CHECK(found.x + found.width == Approx(80).margin(1));
     CHECK(found.height == Approx(40).margin(1));
     CHECK(ism::mask_area(whole) == Approx(20 * 40).epsilon(0.1));
+
+    // The same feature, turned by a quarter: the left half is above now.
+    scene.features[0].angle = std::numbers::pi_v<float> / 2;
+    const auto turned = segmenter.segment(hypothesis, scene);
+    CHECK(turned.figure(80 - turned.x, 50 - turned.y) == Approx(1));
+    CHECK(turned.ground(80 - turned.x, 70 - turned.y) == Approx(1));
 }
 
 TEST_CASE("figure and ground are weighted means of the patches") {
-    ism::Shapes shapes;
+    ism::Model model;
+    ism::ShapeModel& shapes = model.shapes;
     shapes.class_names = {"a"};
     shapes.objects = {
         {.class_index = 0, .width = 200, .height = 200, .mask = ism::Mask(4, 4, 255), .image = ""},
         {.class_index = 0, .width = 200, .height = 200, .mask = ism::Mask(4, 4, 0), .image = ""}};
-    shapes.occurrences = {{.scale = 5, .object = 0, .feature = 0}, {.scale = 5, .object = 1, .feature = 1}};
-    shapes.first = {0, 2};
-    const std::vector<ism::Feature> features{{.x = 100, .y = 100, .scale = 5}};
+    shapes.occurrences.push_back(std::vector<ism::Occurrence>{{.scale = 5, .object = 0, .feature = 0},
+                                                              {.scale = 5, .object = 1, .feature = 1}});
     // The first occurrence is reached through two words: their weights add up to 3 of 4.
-    const std::vector<ism::Support> support{{0, 0, 0, 1.0f}, {0, 0, 1, 1.0f}, {0, 1, 0, 2.0f}};
-    const auto part =
-        ism::segment(features, shapes, support, ism::box_around({100, 100}, 100, 100), 200, 200);
+    ism::Detection hypothesis;
+    hypothesis.support = {{0, 0, 0, 1.0f}, {0, 0, 1, 1.0f}, {0, 1, 0, 2.0f}};
+    hypothesis.box = ism::box_around({100, 100}, 100, 100);
+    const ism::Frame frame{.gray = ism::GrayImage(200, 200)};
+    ism::ThreadPool pool(1);
+    ism::Scene scene{.frame = frame, .model = model, .pool = pool};
+    scene.features = {{.x = 100, .y = 100, .scale = 5}};
+    const auto part = ism::PatchSegmenter{}.segment(hypothesis, scene);
     CHECK(part.figure(100 - part.x, 100 - part.y) == Approx(0.75));
     CHECK(part.ground(100 - part.x, 100 - part.y) == Approx(0.25));
 }

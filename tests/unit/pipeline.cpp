@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: MIT
 //
 // One suite of properties for every vote space with every descriptor, on small drawn pictures (synthetic).
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "support/catch.hpp"
+#include "support/pictures.hpp"
 
 #include "ism/core/random.hpp"
 #include "ism/detect/detect.hpp"
@@ -17,55 +21,32 @@
 #include "ism/feature/sift.hpp"
 #include "ism/train/train.hpp"
 
-namespace {
+using ism::test::pattern_picture;
 
-/// A picture with a patterned square of 80 px, whose pattern tells the class, on a faint noise, 1 m or 2 m
-/// away.
-ism::TrainingImage picture(std::size_t class_index, int left, int top, std::uint64_t seed,
-                           bool with_depth = true) {
-    constexpr int width = 200, height = 160, side = 80;
-    ism::Random noise(seed), pattern(100 + class_index);
-    ism::TrainingImage image;
-    image.name = "picture " + std::to_string(seed);
-    image.frame.gray = ism::GrayImage(width, height, 0.5f);
-    for (float& v : image.frame.gray.pixels()) v += float(0.01 * noise.normal());
-    ism::Mask mask(width, height);
-    if (with_depth) image.frame.depth_m = ism::DepthMap(width, height, 2.0f);
-    image.frame.camera = ism::Camera{200, 200, 99.5, 79.5};
-    for (int blob = 0; blob < 40; ++blob) {
-        const double x = left + pattern.uniform(8, side - 8), y = top + pattern.uniform(8, side - 8);
-        const double sigma = pattern.uniform(1.5, 5), height_of = pattern.uniform() < 0.5 ? -0.4 : 0.4;
-        for (int v = 0; v < height; ++v)
-            for (int u = 0; u < width; ++u)
-                image.frame.gray(u, v) += float(
-                    height_of * std::exp(-((u - x) * (u - x) + (v - y) * (v - y)) / (2 * sigma * sigma)));
-    }
-    for (int v = top; v < top + side; ++v)
-        for (int u = left; u < left + side; ++u) {
-            mask(u, v) = 1;
-            if (with_depth) image.frame.depth_m(u, v) = 1.0f;
-        }
-    image.objects.push_back({class_index, {double(left), double(top), side, side}, mask});
-    return image;
-}
+namespace {
 
 const std::vector<std::string> names{"first", "second"};
 
 std::vector<ism::TrainingImage> training_set() {
     std::vector<ism::TrainingImage> images;
     for (std::uint64_t i = 0; i < 6; ++i)
-        images.push_back(picture(i % 2, 40 + 7 * int(i), 30 + 3 * int(i), i));
+        images.push_back(pattern_picture(std::uint32_t(i % 2), 40 + 7 * int(i), 30 + 3 * int(i), i));
     return images;
 }
 
 template <class Desc>
-ism::Model<ism::HessianLaplace, Desc> trained(unsigned threads = 1) {
+ism::TypedModel<ism::HessianLaplace, Desc> trained(unsigned threads = 1) {
     const auto images = training_set();
     return ism::train<ism::HessianLaplace, Desc>(names, images, {.threads = threads});
 }
 
 bool same(const ism::Detections& a, const ism::Detections& b) {
-    if (a.features != b.features || a.objects.size() != b.objects.size()) return false;
+    const auto same_place = [](const ism::Feature& f, const ism::Feature& g) {
+        return f.x == g.x && f.y == g.y && f.scale == g.scale && f.strength == g.strength;
+    };
+    if (a.objects.size() != b.objects.size() ||
+        !std::equal(a.features.begin(), a.features.end(), b.features.begin(), b.features.end(), same_place))
+        return false;
     for (std::size_t i = 0; i < a.objects.size(); ++i) {
         const auto &p = a.objects[i], &q = b.objects[i];
         if (p.score != q.score || !(p.box == q.box) || p.class_index != q.class_index ||
@@ -89,8 +70,8 @@ TEMPLATE_PRODUCT_TEST_CASE("every vote space finds the object with every descrip
     using Space = std::tuple_element_t<0, TestType>;
     using Desc = std::tuple_element_t<1, TestType>;
     static const auto model = trained<Desc>();
-    for (const std::size_t class_index : {std::size_t{0}, std::size_t{1}}) {
-        const auto test = picture(class_index, 70, 50, 77 + class_index);
+    for (const std::uint32_t class_index : {0u, 1u}) {
+        const auto test = pattern_picture(class_index, 70, 50, 77 + class_index);
         const auto found = ism::detect<Space>(model, test.frame);
         REQUIRE_FALSE(found.objects.empty());
         const ism::Detection& best = found.objects.front();
@@ -105,40 +86,44 @@ TEMPLATE_PRODUCT_TEST_CASE("every vote space finds the object with every descrip
         REQUIRE_FALSE(best.support.empty());
         for (const ism::Support& s : best.support) {
             CHECK(s.feature < found.features.size());
-            CHECK(model.shapes.occurrences.at(s.occurrence).class_index == best.class_index);
-            CHECK(s.occurrence >= model.shapes.first.at(s.word));
-            CHECK(s.occurrence < model.shapes.first.at(s.word + 1));
+            CHECK(model.shapes.occurrence(s.occurrence).class_index == best.class_index);
+            CHECK(s.occurrence >= model.shapes.occurrences.first(s.word));
+            CHECK(s.occurrence <
+                  model.shapes.occurrences.first(s.word) + model.shapes.occurrences[s.word].size());
             CHECK((!Space::needs_depth || ism::is_depth(found.features[s.feature].depth_m)));
         }
-        CHECK(same(found, ism::detect<Space>(model, test.frame, {.threads = 2})));
-        CHECK(same(found, ism::detect<Space, ism::EpanechnikovKernel>(model, test.frame, {.threads = 1})));
+        CHECK(best.probability > 0.5);
+        for (const unsigned threads : {1u, 2u})
+            CHECK(same(found, ism::detect<Space>(model, test.frame, {}, threads)));
     }
 }
 
 TEST_CASE("training gives the same model for one and two threads") {
     const auto one = trained<ism::RootSift>(1), two = trained<ism::RootSift>(2);
-    REQUIRE(one.codebook.size() == two.codebook.size());
-    CHECK(std::equal(one.codebook.words.values().begin(), one.codebook.words.values().end(),
-                     two.codebook.words.values().begin()));
-    REQUIRE(one.shapes.occurrences.size() == two.shapes.occurrences.size());
-    for (std::size_t i = 0; i < one.shapes.occurrences.size(); ++i)
-        CHECK(one.shapes.occurrences[i].weight == two.shapes.occurrences[i].weight);
+    CHECK(one.channels[0].codebook.means() == two.channels[0].codebook.means());
+    REQUIRE(one.shapes.occurrences.values().size() == two.shapes.occurrences.values().size());
+    for (std::size_t i = 0; i < one.shapes.occurrences.values().size(); ++i)
+        CHECK(one.shapes.occurrence(i).weight == two.shapes.occurrence(i).weight);
+    CHECK(one.box_classifier.weights == two.box_classifier.weights);
+    CHECK(one.calibration.curves == two.calibration.curves);
 }
 
 TEST_CASE("the occurrences of a word weigh 1 together") {
     const auto model = trained<ism::Sift>();
-    for (std::size_t w = 0; w < model.codebook.size(); ++w) {
+    for (std::size_t w = 0; w < model.words(); ++w) {
         double sum = 0;
-        for (const auto& o : model.shapes.of_word(w)) sum += o.weight;
+        for (const auto& o : model.shapes.occurrences[w]) sum += o.weight;
         CHECK(sum == Approx(1).margin(1e-4));
     }
 }
 
 TEST_CASE("other kernels and plain suppression find the object too") {
     const auto model = trained<ism::RootSift>();
-    const auto test = picture(1, 30, 60, 5);
-    const auto flat =
-        ism::detect<ism::Jism, ism::FlatKernel>(model, test.frame, {}, ism::NonMaximumSuppression{});
+    const auto test = pattern_picture(1, 30, 60, 5);
+    ism::Recognition<ism::Jism, ism::FlatKernel, ism::NoRescorer, ism::PatchSegmenter,
+                     ism::NonMaximumSuppression>
+        recognition;
+    const auto flat = ism::detect(model, test.frame, recognition);
     const auto gauss = ism::detect<ism::Jism, ism::GaussianKernel>(model, test.frame);
     REQUIRE_FALSE((flat.objects.empty() || gauss.objects.empty()));
     CHECK(ism::iou(flat.objects[0].box, test.objects[0].box) > 0.7);
@@ -147,15 +132,103 @@ TEST_CASE("other kernels and plain suppression find the object too") {
 
 TEST_CASE("the judge sees all candidates before the best of them are cut out") {
     auto model = trained<ism::RootSift>();
-    model.shapes.appearance = {};
-    for (const float bias : {-20.0f, 20.0f}) model.shapes.appearance.push_back({}, bias);
-    const auto scene = picture(0, 70, 50, 9);
-    const auto one_candidate = ism::detect<ism::Jism>(model, scene.frame, {.keep = 0, .max_candidates = 1});
+    model.box_classifier = {};
+    for (const float bias : {-20.0f, 20.0f}) model.box_classifier.push_back({}, bias);
+    const auto scene = pattern_picture(0, 70, 50, 9);
+    const auto one_candidate =
+        ism::detect<ism::Jism>(model, scene.frame, {.min_relative_score = 0, .max_candidates = 1});
     REQUIRE(one_candidate.objects.size() == 1);
     CHECK(one_candidate.objects[0].class_index == 0);
-    const auto one_cut_out = ism::detect<ism::Jism>(model, scene.frame, {.keep = 0, .max_hypotheses = 1});
+    const auto one_cut_out =
+        ism::detect<ism::Jism>(model, scene.frame, {.min_relative_score = 0, .max_hypotheses = 1});
     REQUIRE(one_cut_out.objects.size() == 1);
     CHECK(one_cut_out.objects[0].class_index == 1);
+}
+
+TEST_CASE("results tell how much there was to do at each station") {
+    const auto model = trained<ism::RootSift>();
+    const auto found = ism::detect<ism::Jism>(model, pattern_picture(0, 70, 50, 9).frame);
+    const ism::DetectionStats& stats = found.stats;
+    CHECK(stats.features == found.features.size());
+    CHECK(stats.matches > 0);
+    CHECK(stats.votes > 0);
+    CHECK(stats.hypotheses >= stats.segmented);
+    CHECK(stats.candidates == stats.hypotheses);
+    CHECK(stats.segmented >= found.objects.size());
+    for (const double ms : {stats.extract_ms, stats.match_ms, stats.vote_ms, stats.segment_ms}) CHECK(ms > 0);
+}
+
+TEST_CASE("frame after frame of other sizes a detector finds what a new one finds") {
+    const auto model = trained<ism::RootSift>();
+    ism::FrameDetector detector(model, 2);
+    const auto small = ism::Frame{.gray = ism::GrayImage(64, 48, 0.5f)};
+    const auto first = pattern_picture(0, 70, 50, 9), second = pattern_picture(1, 30, 40, 10, false);
+    for (const ism::Frame* frame : {&first.frame, &small, &second.frame, &first.frame})
+        CHECK(same(detector.detect<ism::Jism>(*frame), ism::detect<ism::Jism>(model, *frame)));
+    // What a space needs is asked before anything is done, and an error leaves the detector as it was.
+    CHECK_THROWS_WITH(detector.detect<ism::Ji3sm3>(second.frame),
+                      Catch::Contains("depth image: expected one"));
+    CHECK(same(detector.detect<ism::Ji3sm3>(first.frame), ism::detect<ism::Ji3sm3>(model, first.frame)));
+}
+
+TEST_CASE("words of two channels of other lengths vote together") {
+    const auto images = training_set();
+    const std::vector<ism::AnyExtractor> extractors{ism::Extractor<ism::HessianLaplace, ism::RootSift>{},
+                                                    ism::Extractor<ism::DenseGrid, ism::GrayPatch>{}};
+    const auto features = ism::extract_training_features(names, ism::training_set(images), extractors);
+    REQUIRE(features.samples.size() == 2);
+    CHECK(features.samples[0].descriptors.dimension() == 128);
+    CHECK(features.samples[1].descriptors.dimension() == 625);
+    const ism::Model model = ism::learn(features);
+    REQUIRE(model.channels.size() == 2);
+    REQUIRE(model.words() == model.channels[0].codebook.size() + model.channels[1].codebook.size());
+    const auto test = pattern_picture(1, 70, 50, 78);
+    ism::FrameDetector detector(model, extractors, 2);
+    const auto found = detector.detect<ism::Jism>(test.frame);
+    REQUIRE_FALSE(found.objects.empty());
+    CHECK(found.objects[0].class_index == 1);
+    CHECK(ism::iou(found.objects[0].box, test.objects[0].box) > 0.7);
+    std::array<std::size_t, 2> votes{};
+    for (const ism::Support& s : found.objects[0].support) ++votes[s.word < model.first_word(1) ? 0 : 1];
+    CHECK(votes[0] > 0);
+    CHECK(votes[1] > 0);
+    // Extractors that are not the model's are refused.
+    CHECK_THROWS_WITH(ism::FrameDetector(model, {extractors[0]}),
+                      Catch::Contains("one a channel: expected 2, got 1"));
+    CHECK_THROWS_WITH(ism::FrameDetector(model, {extractors[1], extractors[0]}),
+                      Catch::Contains("features of the model: expected hessian-laplace, root-sift"));
+    CHECK_THROWS_WITH((ism::TypedModel<ism::HessianLaplace, ism::RootSift>(model)),
+                      Catch::Contains("channels of words: expected 1, got 2"));
+}
+
+TEST_CASE("options of detection and of its policies are refused by name") {
+    const auto model = trained<ism::RootSift>();
+    const auto frame = pattern_picture(0, 50, 50, 3).frame;
+    const auto refuses = [&](const char* what, const auto& change) {
+        ism::Recognition<> recognition;
+        change(recognition);
+        CHECK_THROWS_WITH(ism::detect(model, frame, recognition), Catch::Contains(what));
+    };
+    for (const double bad : {-0.1, 1.5, std::nan("")})
+        refuses("DetectOptions::min_relative_score", [&](auto& r) { r.options.min_relative_score = bad; });
+    for (const double bad : {-1.0, 1e10, std::nan("")}) {
+        refuses("DetectOptions::min_size_px", [&](auto& r) { r.options.min_size_px = bad; });
+        refuses("DetectOptions::max_size_px", [&](auto& r) { r.options.max_size_px = bad; });
+    }
+    refuses("DetectOptions::max_size_px",
+            [](auto& r) { r.options.min_size_px = 9, r.options.max_size_px = 8; });
+    refuses("DetectOptions::min_vote_weight", [](auto& r) { r.options.min_vote_weight = NAN; });
+    refuses("bandwidth", [](auto& r) { r.bandwidth.at_scale_1[0] = 0; });
+    for (const double bad : {0.0, 1e9, std::nan("")})
+        refuses("PatchSegmenter::patch_radius", [&](auto& r) { r.segmenter.patch_radius = bad; });
+    for (const double bad : {-1.0, 1e9, std::nan("")})
+        refuses("PatchSegmenter::margin", [&](auto& r) { r.segmenter.margin = bad; });
+    for (const int bad : {0, -3, std::numeric_limits<int>::max()})
+        refuses("PatchSegmenter::max_cells", [&](auto& r) { r.segmenter.max_cells = bad; });
+    for (const double bad : {-1.0, std::nan("")}) {
+        refuses("Mdl::k1_over_k0", [&](auto& r) { r.verifier.k1_over_k0 = bad; });
+        refuses("Mdl::k2_over_k0", [&](auto& r) { r.verifier.k2_over_k0 = bad; });
+    }
 }
 
 TEST_CASE("an empty scene gives an empty result, not an error") {
@@ -166,13 +239,14 @@ TEST_CASE("an empty scene gives an empty result, not an error") {
 
 TEST_CASE("wrong frames are refused by name") {
     const auto model = trained<ism::RootSift>();
-    const auto good = picture(0, 50, 50, 3).frame;
+    const auto good = pattern_picture(0, 50, 50, 3).frame;
     const auto refuses = [&](ism::Frame frame, const char* what) {
         CHECK_THROWS_WITH(ism::detect<ism::Ji3sm3>(model, frame), Catch::Contains(what));
     };
     refuses({.gray = ism::GrayImage()}, "image size");
     refuses({.gray = ism::GrayImage(15, 200)}, "image size: expected at least 16x16, got 15x200");
-    refuses({.gray = ism::GrayImage(64, 64, NAN)}, "image brightness");
+    CHECK_THROWS_WITH(ism::detect<ism::Jism>(model, {.gray = ism::GrayImage(64, 64, NAN)}),
+                      Catch::Contains("image brightness"));
     refuses({.gray = good.gray}, "depth image: expected one");
     refuses({.gray = good.gray, .depth_m = ism::DepthMap(10, 10, 1.0f)},
             "depth image size: expected 200x160");
@@ -180,10 +254,11 @@ TEST_CASE("wrong frames are refused by name") {
             "depth image: expected at least one");
     refuses({.gray = good.gray, .depth_m = good.depth_m, .camera = ism::Camera{0, 1, 0, 0}},
             "camera focal lengths");
-    CHECK_THROWS_WITH(ism::detect<ism::Jism>(model, good, {.keep = 1.5}), Catch::Contains("T_ratio"));
-    const ism::Model<ism::HessianLaplace, ism::RootSift> untrained;
+    CHECK_THROWS_WITH(ism::detect<ism::Jism>(model, good, {.min_relative_score = 1.5}),
+                      Catch::Contains("T_ratio"));
+    const ism::TypedModel<ism::HessianLaplace, ism::RootSift> untrained;
     CHECK_THROWS_WITH(ism::detect<ism::Jism>(untrained, good),
-                      Catch::Contains("training objects of the model"));
+                      Catch::Contains("model: channels of words: expected 1, got 0"));
 }
 
 TEST_CASE("wrong training images are refused by name") {
@@ -191,10 +266,11 @@ TEST_CASE("wrong training images are refused by name") {
     const auto train = [&](const ism::TrainOptions& options = {}) {
         return ism::train<ism::HessianLaplace, ism::RootSift>(names, images, options);
     };
-    CHECK_THROWS_WITH(train({.min_similarity = 2}), Catch::Contains("similarity"));
-    CHECK_THROWS_WITH(train({.min_cluster_size = 0}), Catch::Contains("cluster size"));
-    CHECK_THROWS_WITH(train({.min_cluster_size = 100000}), Catch::Contains("at least 100000 features"));
-    CHECK_THROWS_WITH(train({.min_information_gain = 1}), Catch::Contains("information gain"));
+    CHECK_THROWS_WITH(train({.codebook = {.min_similarity = 2}}), Catch::Contains("similarity"));
+    CHECK_THROWS_WITH(train({.codebook = {.min_cluster_size = 0}}), Catch::Contains("min_cluster_size"));
+    CHECK_THROWS_WITH(train({.codebook = {.min_cluster_size = 100000}}),
+                      Catch::Contains("at least 100000 features"));
+    CHECK_THROWS_WITH(train({.selection = {.min_information_gain = 1}}), Catch::Contains("information gain"));
     images[2].objects[0].mask = ism::Mask(5, 5, 1);
     CHECK_THROWS_WITH(train(), Catch::Contains("picture 2: mask size: expected 200x160, got 5x5"));
     images[2].objects[0].mask = ism::Mask(200, 160);
@@ -214,5 +290,5 @@ TEST_CASE("wrong training images are refused by name") {
 }
 
 TEST_CASE("small training objects are enlarged, as the data asks") {
-    CHECK(trained<ism::RootSift>().extractor.options.upsampling == Approx(150.0 / 80));
+    CHECK(trained<ism::RootSift>().extractor().options.upsampling == Approx(150.0 / 80));
 }

@@ -6,12 +6,7 @@
 
 #include "support/catch.hpp"
 
-#include "ism/feature/gray_patch.hpp"
-#include "ism/feature/hessian_laplace.hpp"
-
 namespace {
-
-using Model = ism::Model<ism::HessianLaplace, ism::GrayPatch>;
 
 ism::Occurrence seen(std::uint32_t object, std::uint32_t class_index, float x, float scale = 1) {
     ism::Occurrence o;
@@ -21,34 +16,30 @@ ism::Occurrence seen(std::uint32_t object, std::uint32_t class_index, float x, f
 
 /// Two classes of two objects each. Word 0 is of class 0 and always at one place, word 1 of class 0 and
 /// anywhere, word 2 of both classes at one place, word 3 on a single object.
-ism::Shapes four_words() {
-    ism::Shapes shapes;
+ism::ShapeModel four_words() {
+    ism::ShapeModel shapes;
     shapes.class_names = {"a", "b"};
     for (const std::uint32_t c : {0u, 0u, 1u, 1u}) {
         ism::TrainingObject object;
         object.class_index = c;
         shapes.objects.push_back(object);
     }
-    shapes.occurrences = {seen(0, 0, 20),  seen(1, 0, 20),                                //
-                          seen(0, 0, -90), seen(1, 0, 90),                                //
-                          seen(0, 0, 5),   seen(1, 0, 5),  seen(2, 1, 5), seen(3, 1, 5),  //
-                          seen(2, 1, 0),   seen(2, 1, 0)};
-    shapes.first = {0, 2, 4, 8, 10};
+    shapes.occurrences = {{seen(0, 0, 20), seen(1, 0, 20),                              //
+                           seen(0, 0, -90), seen(1, 0, 90),                             //
+                           seen(0, 0, 5), seen(1, 0, 5), seen(2, 1, 5), seen(3, 1, 5),  //
+                           seen(2, 1, 0), seen(2, 1, 0)},
+                          {0, 2, 4, 8, 10}};
     return shapes;
 }
 
-Model model_of(const ism::Shapes& shapes) {
-    Model model;
+ism::Model model_of(const ism::ShapeModel& shapes) {
+    ism::Model model;
     model.shapes = shapes;
-    for (std::size_t w = 0; w + 1 < shapes.first.size(); ++w) {
-        std::array<ism::GrayPatch::Scalar, ism::GrayPatch::dimension> row{};
-        row[0] = ism::GrayPatch::Scalar(w);
-        model.codebook.words.push_back(row);
-        model.codebook.mean_sq_length.push_back(float(w * w));
-        model.codebook.group.push_back(0);
-        model.codebook.sizes.push_back(10 + std::uint32_t(w));
-    }
-    model.codebook.max_sq_distance = 3;
+    model.channels = {{{.detector = "d", .descriptor = "e", .dimension = 1}, ism::Codebook(1, 3)},
+                      {{.detector = "d", .descriptor = "f", .dimension = 2}, ism::Codebook(2, 4)}};
+    for (std::uint32_t w = 0; w < 3; ++w)
+        model.channels[0].codebook.push_back({std::vector{float(w)}, float(w * w), 10 + w});
+    model.channels[1].codebook.push_back({std::vector{3.0f, 4.0f}, 25, 13});
     return model;
 }
 
@@ -73,7 +64,7 @@ TEST_CASE("the share of right votes follows from place, scale and class by hand"
 }
 
 TEST_CASE("words whose votes agree are worth most; gain and number do not see the place") {
-    const ism::Shapes shapes = four_words();
+    const ism::ShapeModel shapes = four_words();
     const auto agreement = ism::word_worth(shapes, ism::WordMeasure::vote_agreement);
     REQUIRE(agreement.size() == 4);
     // class 0 has 6 occurrences, class 1 has 4
@@ -92,10 +83,11 @@ TEST_CASE("words whose votes agree are worth most; gain and number do not see th
 }
 
 TEST_CASE("of large words an even part is asked") {
-    ism::Shapes shapes;
+    ism::ShapeModel shapes;
     shapes.class_names = {"a"};
-    for (std::uint32_t i = 0; i < 1000; ++i) shapes.occurrences.push_back(seen(i, 0, 7));
-    shapes.first = {0, 1000};
+    std::vector<ism::Occurrence> word;
+    for (std::uint32_t i = 0; i < 1000; ++i) word.push_back(seen(i, 0, 7));
+    shapes.occurrences.push_back(word);
     CHECK(ism::vote_agreement(shapes, 1, 10)[0] == Approx(ism::vote_agreement(shapes, 1, 1000)[0]));
     CHECK(ism::vote_agreement({}).empty());
 }
@@ -107,26 +99,32 @@ TEST_CASE("the best words are the most worth, of equal ones the first, in rising
     CHECK(ism::words_worth(worth, 3) == std::vector<std::uint32_t>{1, 2, 3, 4});
 }
 
-TEST_CASE("a model keeps the chosen words with their occurrences") {
-    const Model model = model_of(four_words());
-    const std::vector<std::uint32_t> chosen = {0, 2};
-    const Model kept = ism::keep_words(model, chosen);
-    CHECK(kept.codebook.size() == 2);
-    CHECK(kept.codebook.words.row(1)[0] == 2);
-    CHECK(kept.codebook.mean_sq_length == std::vector<float>{0, 4});
-    CHECK(kept.codebook.max_sq_distance == 3);
-    CHECK(kept.codebook.sizes == std::vector<std::uint32_t>{10, 12});
-    CHECK(kept.shapes.first == std::vector<std::uint32_t>{0, 2, 6});
-    CHECK(kept.shapes.of_word(1)[3].object == 3);
+TEST_CASE("a model keeps the chosen words of each channel with their occurrences") {
+    const ism::Model model = model_of(four_words());
+    REQUIRE(model.words() == 4);
+    const std::vector<std::uint32_t> chosen = {0, 2, 3};
+    const ism::Model kept = ism::keep_words(model, chosen);
+    REQUIRE(kept.channels.size() == 2);
+    const ism::Codebook& codebook = kept.channels[0].codebook;
+    REQUIRE(codebook.size() == 2);
+    CHECK(codebook[1].mean[0] == 2);
+    CHECK(codebook[1].mean_sq_length == 4);
+    CHECK(codebook[1].size == 12);
+    CHECK(codebook.max_sq_distance() == 3);
+    CHECK(kept.channels[1].codebook[0].mean[1] == 4);
+    CHECK(kept.channels[1].features.descriptor == "f");
+    REQUIRE(kept.shapes.occurrences.size() == 3);
+    CHECK(kept.shapes.occurrences[1].size() == 4);
+    CHECK(kept.shapes.occurrences[1][3].object == 3);
     CHECK(kept.shapes.objects.size() == 4);
-    for (std::size_t w = 0; w < 2; ++w) {
+    for (std::size_t w = 0; w < 3; ++w) {
         double sum = 0;
-        for (const ism::Occurrence& o : kept.shapes.of_word(w)) sum += double(o.weight);
+        for (const ism::Occurrence& o : kept.shapes.occurrences[w]) sum += double(o.weight);
         CHECK(sum == Approx(1));  // also where a feature was at words that are gone
     }
-    CHECK_THROWS_AS(ism::keep_words(model, std::span<const std::uint32_t>()), ism::Error);
-    Model judged = model;
-    judged.shapes.appearance.push_back({}, 0);
-    judged.shapes.appearance.push_back({}, 0);
-    CHECK_THROWS_AS(ism::keep_words(judged, chosen), ism::Error);
+    CHECK_THROWS_WITH(ism::keep_words(model, std::vector<std::uint32_t>{0, 1}),
+                      Catch::Contains("words to keep of channel 1"));
+    ism::Model judged = model;
+    judged.box_classifier.push_back({}, 0);
+    CHECK_THROWS_WITH(ism::keep_words(judged, chosen), Catch::Contains("without classifier"));
 }

@@ -40,6 +40,7 @@ public:
     /// depth where the frame has none.
     template <VoteSpaceType Space, Kernel K, Rescorer R, Segmenter S, Verifier V>
     [[nodiscard]] Detections detect(const Frame& frame, const Recognition<Space, K, R, S, V>& recognition) {
+        check(frame);
         check(recognition, frame);
         return recognise(matcher_.scene(frame), recognition);
     }

@@ -49,7 +49,7 @@ public:
     /// @throws Error for a frame that check(Frame) refuses.
     [[nodiscard]] Scene scene(const Frame& frame) {
         check(frame);
-        Scene scene{.frame = frame, .model = model_, .pool = pool_, .features = {}, .matches = {}};
+        Scene scene{.frame = frame, .model = model_, .pool = pool_};
         for (Channel& channel : channels_) {
             Stopwatch watch;
             const FeatureSet<float>& found = channel.extract(frame);

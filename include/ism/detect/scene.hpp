@@ -17,9 +17,9 @@ namespace ism {
 struct Scene {
     const Frame& frame;
     const Model& model;
-    ThreadPool& pool;               ///< works on this scene alone; not to be used within one of its loops
-    std::vector<Feature> features;  ///< of all channels, with depth where the frame has depth
-    std::vector<Match> matches;     ///< all words within the threshold, by feature
+    ThreadPool& pool;  ///< works on this scene alone; not to be used within one of its loops
+    std::vector<Feature> features = {};   ///< of all channels, with depth where the frame has depth
+    std::vector<Match> matches = {};      ///< all words within the threshold, by feature
     double extract_ms = 0, match_ms = 0;  ///< what it took to find features and matches
 };
 

@@ -19,8 +19,8 @@ struct TrainingObject {
     std::uint32_t class_index = 0;
     float width = 0, height = 0;  ///< of its box, pixels at the reference size; the centre is the box's
     float size_px = 0;            ///< root of its box's area in the training image
-    Mask mask;                    ///< the box in cells of mask_cell_px: share of figure, 0 … 255
-    std::string image;            ///< name of the training image, to tell why something was found
+    Mask mask = {};               ///< the box in cells of mask_cell_px: share of figure, 0 … 255
+    std::string image = {};       ///< name of the training image, to tell why something was found
 };
 
 /// @brief Share of figure, 0 … 1, of a training object at (x, y) from its centre, pixels at the reference

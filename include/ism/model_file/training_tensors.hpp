@@ -104,14 +104,14 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
     std::vector<double> boxes;
     for (const TrainingView& view : views) {
         sides.insert(sides.end(), {std::uint32_t(view.width), std::uint32_t(view.height), view.first_object,
-                                   view.end_object});
+                                   view.end_object, std::uint32_t(view.mirrored)});
         for (const auto& [class_index, box] : view.labels) {
             classes.push_back(class_index);
             boxes.insert(boxes.end(), {box.x, box.y, box.width, box.height});
         }
         offsets.push_back(static_cast<std::uint32_t>(classes.size()));
     }
-    file.tensors["training_views"] = make_tensor<std::uint32_t>(sides, {views.size(), 4});
+    file.tensors["training_views"] = make_tensor<std::uint32_t>(sides, {views.size(), 5});
     file.tensors["training_labels"] = make_tensor<std::uint32_t>(classes, {classes.size()});
     file.tensors["training_boxes"] = make_tensor<double>(boxes, {classes.size(), 4});
     file.tensors["training_label_offsets"] = offsets_tensor(offsets);
@@ -126,19 +126,19 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
     TrainingFeatures all{.class_names = model.shapes.class_names, .objects = model.shapes.objects};
     all.summary = model.training;
     const std::size_t classes = all.class_names.size();
-    const auto sides = values<std::uint32_t>(file, "training_views", {any_length, 4});
-    const std::size_t views = sides.size() / 4;
+    const auto sides = values<std::uint32_t>(file, "training_views", {any_length, 5});
+    const std::size_t views = sides.size() / 5;
     const auto labels = values<std::uint32_t>(file, "training_labels", {any_length});
     const auto boxes = values<double>(file, "training_boxes", {labels.size(), 4});
     const auto offsets = offsets_from_tensor(file, "training_label_offsets", views, labels.size());
     for (std::size_t v = 0; v < views; ++v) {
-        const std::uint32_t* side = sides.data() + 4 * v;
+        const std::uint32_t* side = sides.data() + 5 * v;
         expect<FileError>(is_image_size(side[0], side[1]), lazy_text(file.source, ": size of an image"),
                           image_size_limits, lazy_text(side[0], "x", side[1]));
         expect<FileError>(side[2] <= side[3] && side[3] <= all.objects.size(),
                           lazy_text(file.source, ": objects of an image"),
                           lazy_text("up to ", all.objects.size()), lazy_text(side[2], " to ", side[3]));
-        TrainingView view{int(side[0]), int(side[1]), {}, side[2], side[3]};
+        TrainingView view{int(side[0]), int(side[1]), {}, side[2], side[3], side[4] != 0};
         for (std::size_t i = offsets[v]; i < offsets[v + 1]; ++i) {
             const ObjectLabel label{labels[i],
                                     {boxes[4 * i], boxes[4 * i + 1], boxes[4 * i + 2], boxes[4 * i + 3]}};

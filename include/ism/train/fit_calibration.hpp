@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "ism/train/fit_box_classifier.hpp"
 #include "ism/train/train_options.hpp"
 #include "ism/train/training_boxes.hpp"
+#include "ism/train/training_features.hpp"
 
 namespace ism {
 
@@ -64,18 +67,32 @@ struct ScoredExample {
     return curve;
 }
 
+/// @brief Which half of the training images each view belongs to, 0 or 1: images of a class take turns,
+/// background images too, and a mirror image goes with its image.
+[[nodiscard]] inline std::vector<std::uint8_t> halves_of_views(const TrainingFeatures& features) {
+    std::vector<std::size_t> seen(features.class_names.size() + 1, 0);
+    std::vector<std::uint8_t> half_of_view;
+    for (const TrainingView& view : features.views) {
+        const std::size_t kind =
+            view.labels.empty() ? features.class_names.size() : view.labels.front().class_index;
+        const bool with_last = view.mirrored && !half_of_view.empty();
+        half_of_view.push_back(with_last ? half_of_view.back() : std::uint8_t(seen[kind]++ % 2));
+    }
+    return half_of_view;
+}
+
 /// @brief Learns how scores become probabilities, from hypotheses that were found without votes of their own
 /// image, judged by classifiers of boxes that were fitted without it (two halves of the images take turns). A
 /// class with few examples has the curve of all classes.
-/// @param boxes    of training_boxes()
-/// @param view_of  number of the image a view shows, its mirror image too
+/// @param boxes         of training_boxes()
+/// @param half_of_view  see halves_of_views()
 [[nodiscard]] inline Calibration fit_calibration(std::span<const TrainingBox> boxes,
-                                                 std::span<const std::size_t> image_of_view,
+                                                 std::span<const std::uint8_t> half_of_view,
                                                  std::size_t words, std::size_t classes,
                                                  const TrainOptions& options) {
     constexpr std::size_t least = 8;  // of each kind for a curve of its own
     std::array<std::vector<TrainingBox>, 2> halves;
-    for (const TrainingBox& box : boxes) halves[image_of_view[box.view] % 2].push_back(box);
+    for (const TrainingBox& box : boxes) halves[half_of_view[box.view]].push_back(box);
     std::vector<std::vector<ScoredExample>> of_class(classes);
     std::vector<ScoredExample> all;
     for (const std::size_t half : {0u, 1u}) {

@@ -90,13 +90,8 @@ namespace detail {
     const auto classifier_options = options.box_classifier.value_or(BoxClassifierOptions{});
     const auto boxes =
         training_boxes(model, features, classifier_options.max_hypotheses, options.threads, options.progress);
-    if (options.calibrate) {
-        const std::size_t views_an_image = std::max<std::size_t>(
-            1, features.views.size() / std::max<std::size_t>(1, features.summary.images));
-        std::vector<std::size_t> image_of_view(features.views.size());
-        for (std::size_t v = 0; v < image_of_view.size(); ++v) image_of_view[v] = v / views_an_image;
-        model.calibration = fit_calibration(boxes, image_of_view, words, classes, options);
-    }
+    if (options.calibrate)
+        model.calibration = fit_calibration(boxes, halves_of_views(features), words, classes, options);
     if (options.box_classifier)
         model.box_classifier = fit_box_classifier(boxes, words, classes, classifier_options, options.threads);
     return model;

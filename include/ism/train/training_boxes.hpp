@@ -41,7 +41,7 @@ namespace detail {
 [[nodiscard]] inline Scene training_scene(const TrainingView& view, const Model& model,
                                           std::span<const WordIndex> words, const Frame& blank,
                                           ThreadPool& pool) {
-    Scene scene{.frame = blank, .model = model, .pool = pool, .features = {}, .matches = {}};
+    Scene scene{.frame = blank, .model = model, .pool = pool};
     for (std::size_t c = 0; c < words.size(); ++c) {
         const auto first = static_cast<std::uint32_t>(scene.features.size());
         const auto first_word = static_cast<std::uint32_t>(model.first_word(c));

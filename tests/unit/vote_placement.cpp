@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numbers>
+
+#include "support/catch.hpp"
+
+#include "ism/core/random.hpp"
+#include "ism/vote/placement.hpp"
+
+TEST_CASE("a placement follows from feature and occurrence by hand") {
+    // Seen twice as large and turned by a quarter, from x to y: 20 px to the right is now 40 px down.
+    const ism::Feature f{.x = 100, .y = 50, .scale = 6, .angle = std::numbers::pi_v<float> / 2};
+    const ism::Occurrence o{.x = 20, .y = -10, .scale = 3, .angle = 0};
+    const ism::Placement placed = ism::placement(f, o);
+    CHECK(placed.scale == 2);
+    CHECK(placed.angle == Approx(std::numbers::pi / 2));
+    CHECK(placed.centre.x == Approx(100 - 20));
+    CHECK(placed.centre.y == Approx(50 - 40));
+}
+
+TEST_CASE("upright features need no sine: the centre is exact") {
+    const ism::Placement placed = ism::placement(ism::Feature{.x = 100, .y = 50, .scale = 6},
+                                                 ism::Occurrence{.x = 20, .y = -10, .scale = 3});
+    CHECK(placed.centre == ism::Point2{60, 70});
+    CHECK(placed.angle == 0);
+}
+
+TEST_CASE("placement and its inverses are inverses") {
+    ism::Random random(1);
+    for (int trial = 0; trial < 200; ++trial) {
+        const bool turned = trial % 2 == 1;
+        const ism::Placement object{{random.uniform(0, 500), random.uniform(0, 400)},
+                                    random.uniform(0.2, 4),
+                                    turned ? random.uniform(-3, 3) : 0};
+        const ism::Feature f{.x = float(random.uniform(0, 500)),
+                             .y = float(random.uniform(0, 400)),
+                             .scale = float(random.uniform(1, 30)),
+                             .angle = turned ? float(random.uniform(-3, 3)) : 0};
+        const ism::Placement back = ism::placement(f, ism::as_occurrence(f, object));
+        CHECK(back.centre.x == Approx(object.centre.x).margin(1e-3));
+        CHECK(back.centre.y == Approx(object.centre.y).margin(1e-3));
+        CHECK(back.scale == Approx(object.scale).epsilon(1e-5));
+        CHECK(back.angle == Approx(object.angle).margin(1e-5));
+        const ism::Point2 pixel{random.uniform(0, 500), random.uniform(0, 400)};
+        const ism::Point2 again = ism::to_image(object, ism::to_object(object, pixel));
+        CHECK(again.x == Approx(pixel.x).margin(1e-9));
+        CHECK(again.y == Approx(pixel.y).margin(1e-9));
+    }
+}
+
+TEST_CASE("the box around a turned box holds its corners and no more") {
+    const ism::Placement upright{{50, 40}, 0.5, 0};
+    CHECK(ism::placed_box(upright, 100, 60) == ism::box_around({50, 40}, 50, 30));
+    const ism::Placement quarter{{50, 40}, 0.5, std::numbers::pi / 2};
+    const ism::Box box = ism::placed_box(quarter, 100, 60);
+    CHECK(box.width == Approx(30));
+    CHECK(box.height == Approx(50));
+    const ism::Placement eighth{{0, 0}, 1, std::numbers::pi / 4};
+    CHECK(ism::placed_box(eighth, 10, 10).width == Approx(10 * std::sqrt(2.0)));
+}
