@@ -17,6 +17,7 @@
 #include "ism/dataset/coco_results.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/evaluate/evaluate.hpp"
+#include "ism/io/paths.hpp"
 
 namespace ism {
 
@@ -63,7 +64,7 @@ struct DatasetTruth {
     for (std::size_t i = 0; i < dataset.images.size(); ++i) image_of[dataset.images[i].id] = i;
     for (std::uint32_t c = 0; c < dataset.category_ids.size(); ++c) class_of[dataset.category_ids[c]] = c;
     const std::string set =
-        dataset.source.empty() ? "the data set" : "data set '" + dataset.source.string() + "'";
+        dataset.source.empty() ? "the data set" : "data set '" + one_line(dataset.source.string()) + "'";
     std::vector<FoundObject> found;
     for (const Result& result : results) {
         const auto image = image_of.find(result.image_id);

@@ -96,6 +96,8 @@ void write_file(const std::filesystem::path& path, Write&& write) {
     const std::string text = file_text(path);
     if (fs::is_directory(status)) throw FileError(text + ": expected a file to write, got a folder");
     if (path.filename().empty()) throw FileError(text + ": expected a file to write, got no file name");
+    if (status.type() == fs::file_type::none)  // a link to itself, say, or a folder that may not be entered
+        throw FileError(text + ": expected a place to write to, got " + failure.message());
     const bool direct = fs::exists(status) && !fs::is_regular_file(status);
     fs::path target = path;
     if (fs::is_regular_file(status)) {
