@@ -19,8 +19,8 @@ namespace ism {
 
 /// @brief The figures of one class or their mean, all 0 … 1; NaN where there is nothing to measure.
 struct Figures {
-    double ap = std::numeric_limits<double>::quiet_NaN();        ///< average precision
-    double eer = std::numeric_limits<double>::quiet_NaN();       ///< precision where it equals recall
+    double ap = std::numeric_limits<double>::quiet_NaN();   ///< average precision
+    double eer = std::numeric_limits<double>::quiet_NaN();  ///< precision_at_equal_recall(): larger is better
     double best_f1 = std::numeric_limits<double>::quiet_NaN();   ///< best F1 along the curve
     double mask_iou = std::numeric_limits<double>::quiet_NaN();  ///< mean over the objects found, every score
 };
@@ -94,7 +94,7 @@ template <MaskOverlap Masks>
     const BestF1 best = best_f1(result.curve);
     result.best_f1_score = best.score;
     result.figures = {.ap = average_precision(result.curve),
-                      .eer = equal_error_rate(result.curve),
+                      .eer = precision_at_equal_recall(result.curve),
                       .best_f1 = best.f1,
                       .mask_iou = overlap.value()};
     return result;

@@ -71,10 +71,11 @@ struct PrecisionRecall {
     return area;
 }
 
-/// @brief Precision where it equals recall: as many detections are kept as there are objects. With fewer
+/// @brief Precision where it equals recall, 1 − the equal error rate (papers print it as "EER performance" or
+/// "EER"): as many detections are kept as there are objects. With fewer
 /// detections than objects it is the recall of all of them. Where a cut there parts detections of one score,
 /// it is the mean over their orders. 0 … 1; NaN without objects.
-[[nodiscard]] inline double equal_error_rate(const PrecisionRecall& curve) {
+[[nodiscard]] inline double precision_at_equal_recall(const PrecisionRecall& curve) {
     if (curve.objects == 0) return std::numeric_limits<double>::quiet_NaN();
     const double objects = double(curve.objects);
     PrecisionRecallPoint before;

@@ -50,6 +50,7 @@ namespace detail {
 }
 
 /// @brief The cells of the table of an evaluation: a heading, a row for each class and their mean, percent.
+/// "EER" is the precision where it equals recall.
 [[nodiscard]] inline std::vector<std::vector<std::string>> table_cells(const Evaluation& evaluation) {
     std::vector<std::vector<std::string>> rows = {
         {"class", "objects", "found", "right", "AP %", "EER %", "F1 %", "mask IoU %"}};
