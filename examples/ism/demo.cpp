@@ -143,7 +143,7 @@ ism::ReportSection lesson_section(const ism::Dataset& train) {
         left += picture.width();
     }
     ism::ReportSection section{.title = "Learnt from pictures like these"};
-    section.parts.push_back(ism::ReportPicture{list_text(train.class_names), ism::encode_png(row)});
+    section.parts.push_back(ism::ReportImage{list_text(train.class_names), ism::encode_png(row)});
     return section;
 }
 

@@ -135,7 +135,7 @@ TEST_CASE("Nothing found scores zero, nothing to find scores nothing") {
     CHECK_THROWS_AS(ism::precision_recall(falling("+"), 0), ism::Error);
 }
 
-TEST_CASE("A confusion matrix counts the class of each image's surest detection") {
+TEST_CASE("A confusion matrix counts the class of each image's most confident detection") {
     const ism::Box box{0, 0, 10, 10};
     const std::vector<ism::TruthObject> truth{{0, 0, box}, {1, 0, box}, {2, 1, box}, {3, 1, box}};
     const std::vector<ism::FoundObject> found{

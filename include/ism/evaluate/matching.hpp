@@ -31,7 +31,7 @@ struct FoundObject {
     std::size_t image = 0;          ///< index of the image
     std::uint32_t class_index = 0;  ///< index of the class
     Box box;                        ///< pixels
-    double score = 0;               ///< larger is surer
+    double score = 0;               ///< larger is more confident
 };
 
 /// @brief When a found box counts as a true one: `fit` is the quality of the fit (larger is better) or

@@ -23,7 +23,7 @@ struct ScoredVerdict {
 struct PrecisionRecallPoint {
     double score = 0;       ///< the lowest score kept
     std::size_t kept = 0;   ///< detections kept
-    std::size_t right = 0;  ///< of these, right ones
+    std::size_t right = 0;  ///< of these, true positives
     double precision = 0;   ///< right / kept
     double recall = 0;      ///< right / objects
 };
