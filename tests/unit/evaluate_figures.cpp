@@ -121,6 +121,16 @@ TEST_CASE("Figures agree with their definitions on random detections, with and w
     }
 }
 
+TEST_CASE("Of cuts with the same F1 the best one is that with the highest score") {
+    const auto curve = ism::precision_recall(falling("+--+"), 2);  // F1 2/3 at 1 and at 4 detections
+    CHECK(ism::best_f1(curve).f1 == Approx(2.0 / 3));
+    CHECK(ism::best_f1(curve).score == 1.0);
+}
+
+TEST_CASE("Scores that are not numbers have no curve") {
+    CHECK_THROWS_AS(ism::precision_recall(std::vector<ScoredVerdict>{{std::nan(""), true}}, 1), ism::Error);
+}
+
 TEST_CASE("Nothing found scores zero, nothing to find scores nothing") {
     const auto none_found = ism::precision_recall({}, 5);
     CHECK(ism::average_precision(none_found) == 0);
