@@ -78,7 +78,7 @@ SpaceOutcome measure(const toy::ToySet& set, std::vector<ism::Result> results) {
     std::size_t placed = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const ism::Judgement& judgement = outcome.evaluation.judgements[i];
-        const bool right = judgement.verdict == ism::Verdict::right;
+        const bool right = judgement.verdict == ism::Verdict::true_positive;
         verdicts.push_back({found[i].score, right});
         if (!right || !found[i].position_m) continue;
         const ism::Point3 a = *found[i].position_m, b = truth[judgement.truth]->position_m;

@@ -257,6 +257,6 @@ TEST_CASE("Names that JSON cannot hold are refused before anything is written") 
 TEST_CASE("A file name with a zero or line breaks gives messages of one line") {
     const std::string head = R"({"categories":[],"annotations":[],"images":[{"id":1,"width":20,"height":16,)";
     CHECK(error_message<FileError>([&] { (void)dataset_of(head + R"("file_name":"a\u0000b"}]})"); }) ==
-          "file 'a.json', image with id 1: file name: expected text without zeros, got 'a\\x00b'");
+          "file 'a.json', image with id 1: file name: expected no NUL character, got 'a\\x00b'");
     CHECK(ism::file_text("a\nb") == "file 'a\\x0ab'");
 }

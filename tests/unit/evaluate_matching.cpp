@@ -22,7 +22,7 @@ namespace {
 const Judgement wrong{};
 const Judgement ignored{Verdict::ignored, ism::no_object};
 Judgement right(std::size_t truth) {
-    return {Verdict::right, truth};
+    return {Verdict::true_positive, truth};
 }
 FoundObject found_at(double x, double score, std::size_t image = 0, std::uint32_t class_index = 0) {
     return {image, class_index, {x, 0, 10, 10}, score};

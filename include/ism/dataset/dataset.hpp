@@ -32,7 +32,7 @@ struct DatasetAnnotation {
     std::int64_t id = 0;            ///< its own in the data set
     std::uint32_t class_index = 0;  ///< into Dataset::class_names
     Box box;                        ///< pixels; may reach outside the image
-    bool crowd = false;             ///< a group: neither to be learnt from nor to be missed
+    bool crowd = false;             ///< a group: ignored in training and evaluation
     MaskSource segmentation = {};
     [[nodiscard]] bool operator==(const DatasetAnnotation&) const = default;
 };

@@ -21,10 +21,10 @@
 
 namespace ism {
 
-/// @brief How results are measured against a data set.
+/// @brief Options of evaluate().
 struct EvaluateOptions {
     enum class Rule { iou, uiuc };
-    Rule rule = Rule::iou;       ///< when a box is right: IouRule or UiucRule
+    Rule rule = Rule::iou;       ///< when a box matches: IouRule or UiucRule
     double iou_threshold = 0.5;  ///< of IouRule, above 0, up to 1
 };
 
@@ -124,7 +124,8 @@ template <MatchRule R>
     };
     Json classes = Json::object();
     for (const ClassEvaluation& c : evaluation.classes) {
-        const Json counts = {{"objects", c.objects}, {"detections", c.detections}, {"right", c.right}};
+        const Json counts = {
+            {"objects", c.objects}, {"detections", c.detections}, {"right", c.true_positives}};
         classes[c.name] = add(counts, c.figures);
         classes[c.name]["best_f1_score"] = number(c.best_f1_score);
     }

@@ -11,7 +11,7 @@
 #include "ism/core/error.hpp"
 #include "ism/core/number_text.hpp"
 
-/// Names of files in messages and in other files.
+/// File names in messages and in JSON.
 namespace ism {
 
 /// @brief A text without line breaks and other control characters: "\\x0a" and so on stand for them.
@@ -44,16 +44,16 @@ decltype(auto) at_place(const std::string& place, Read&& read) {
     }
 }
 
-/// @brief A file name as it stands in JSON: UTF-8, folders parted by "/".
+/// @brief A file name as it stands in JSON: UTF-8, folders separated by "/".
 [[nodiscard]] inline std::string path_to_utf8(const std::filesystem::path& path) {
     const std::u8string text = path.generic_u8string();
     return std::string(text.begin(), text.end());
 }
 
 /// @brief The reverse of path_to_utf8().
-/// @throws FileError for a text with a zero in it, where the system would stop reading the name.
+/// @throws FileError for a text with a NUL character, where the system would cut the name.
 [[nodiscard]] inline std::filesystem::path path_from_utf8(const std::string& text) {
-    expect<FileError>(text.find('\0') == std::string::npos, "file name", "text without zeros",
+    expect<FileError>(text.find('\0') == std::string::npos, "file name", "no NUL character",
                       lazy_text("'", one_line(text), "'"));
     return std::filesystem::path(std::u8string(text.begin(), text.end()));
 }
