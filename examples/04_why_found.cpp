@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 
-// Why something was found: which features voted for the surest detection, through which words, and on which
-// training pictures these were seen. Also writes why.png: the votes, p(figure), p(ground), the segmentation.
+// Why something was found: which features voted for the most confident detection, through which words, and on
+// which training images these were seen. Also writes why.png: the votes, p(figure), p(ground), the
+// segmentation.
 #include <cstdio>
 #include <exception>
 
@@ -36,7 +37,7 @@ int main() try {
                     vote.weight, feature.x, feature.y, vote.word, occurrence.x, occurrence.y,
                     model.shapes.objects[occurrence.object].image.c_str());
     }
-    ism::write_png("why.png", ism::overlay_row(scene.color, found, 0, model.shapes.class_names));
+    ism::write_png("why.png", ism::draw_explanation(scene.color, found, 0, model.shapes.class_names));
     std::printf("wrote why.png\n");
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

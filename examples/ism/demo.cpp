@@ -84,7 +84,7 @@ SpaceOutcome measure(const toy::ToySet& set, std::vector<ism::Result> results) {
     std::size_t placed = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const ism::Judgement& judgement = outcome.evaluation.judgements[i];
-        const bool right = judgement.verdict == ism::Verdict::right;
+        const bool right = judgement.verdict == ism::Verdict::true_positive;
         verdicts.push_back({found[i].score, right});
         if (!right || !found[i].position_m) continue;
         const ism::Point3 a = *found[i].position_m, b = truth[judgement.truth]->position_m;
@@ -149,7 +149,7 @@ ism::ReportSection lesson_section(const ism::Dataset& train) {
         left += picture.width();
     }
     ism::ReportSection section{.title = "Learnt from pictures like these"};
-    section.parts.push_back(ism::ReportPicture{list_text(train.class_names), ism::encode_png(row)});
+    section.parts.push_back(ism::ReportImage{list_text(train.class_names), ism::encode_png(row)});
     return section;
 }
 

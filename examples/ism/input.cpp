@@ -73,7 +73,7 @@ void check_output(const fs::path& file, std::span<const fs::path> inputs) {
     const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
     if (!fs::is_directory(folder, failure))
         throw ism::FileError(text + ": expected an existing folder to write to, got none");
-    // Writing at one stroke makes a file beside it: whether that works is known only by doing it.
+    // Writing atomically needs a temporary file beside it: only trying shows whether that works.
     std::random_device device;
     const fs::path probe =
         folder / ism::join_text(".ism-", ism::hex_text(device(), 8), ism::hex_text(device(), 8));

@@ -143,7 +143,9 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
 }
 
 void add_evaluate(CLI::App& parent, program::EvaluateCommand& command) {
-    CLI::App& app = *parent.add_subcommand("evaluate", "measure what was found");
+    CLI::App& app = *parent.add_subcommand("evaluate",
+                                           "measure what was found: average precision (AP), precision where "
+                                           "it equals recall (EER), best F1, IoU of masks");
     app.add_option("--data", command.data, "labelled images, COCO JSON")->required();
     app.add_option("--detections", command.detections, "results, COCO JSON")->required();
     app.add_option_function<std::string>(

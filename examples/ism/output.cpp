@@ -47,12 +47,12 @@ OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset) : folde
     }
 }
 
-void OverlayFiles::write(std::size_t i, const ism::RgbImage& picture, const ism::Detections& detections,
+void OverlayFiles::write(std::size_t i, const ism::RgbImage& image, const ism::Detections& detections,
                          std::span<const std::string> class_names) const {
     const auto files = files_of(stems_[i]);
-    ism::write_png(folder_ / files[0], ism::overlay_all(picture, detections, class_names));
+    ism::write_png(folder_ / files[0], ism::draw_detections(image, detections, class_names));
     for (std::size_t row = 0; row < std::min(rows, detections.objects.size()); ++row)
-        ism::write_png(folder_ / files[row + 1], ism::overlay_row(picture, detections, row, class_names));
+        ism::write_png(folder_ / files[row + 1], ism::draw_explanation(image, detections, row, class_names));
 }
 
 }  // namespace program

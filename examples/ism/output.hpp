@@ -15,7 +15,7 @@
 
 namespace program {
 
-/// The pictures of detections: for each image one with all of them and a row of four for the strongest.
+/// The images of detections: for each image one with all of them and a row of four for the strongest.
 class OverlayFiles {
 public:
     static constexpr std::size_t rows = 3;
@@ -26,7 +26,7 @@ public:
     OverlayFiles(std::filesystem::path folder, const ism::Dataset& dataset);
 
     /// Writes those of image i.
-    void write(std::size_t i, const ism::RgbImage& picture, const ism::Detections& detections,
+    void write(std::size_t i, const ism::RgbImage& image, const ism::Detections& detections,
                std::span<const std::string> class_names) const;
 
 private:

@@ -39,7 +39,7 @@ ism::Evaluation evaluated(const Model& model, const ism::Dataset& data, const Ru
 
 }  // namespace
 
-TEST_CASE("uiuc-cars: equal error rate by the official rule") {
+TEST_CASE("uiuc-cars: precision where it equals recall, by the official rule") {
     const auto train = ism::test::find_data("uiuc-cars/train.json"),
                test = ism::test::find_data("uiuc-cars/test.json");
     if (!train || !test) return;

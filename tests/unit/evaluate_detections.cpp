@@ -87,8 +87,8 @@ TEST_CASE("Detections are measured as the results made of them") {
     const ism::Evaluation direct = ism::evaluate(set, found);
     CHECK(direct.classes[0].objects == 2);
     CHECK(direct.classes[0].detections == 3);
-    CHECK(direct.classes[0].right == 2);
-    CHECK(direct.classes[1].right == 1);
+    CHECK(direct.classes[0].true_positives == 2);
+    CHECK(direct.classes[1].true_positives == 1);
     CHECK(direct.classes[0].figures.ap == 1);
     // 100 of 120 pixels in the first image; at the right edge all 100
     CHECK(direct.classes[0].figures.mask_iou == Approx((100.0 / 120 + 1) / 2));

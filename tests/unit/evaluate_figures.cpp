@@ -60,24 +60,24 @@ TEST_CASE("Average precision, equal error rate and F1 of curves counted by hand"
     CHECK(curve.points[1].precision == 0.5);
     CHECK(curve.points[2].recall == 1.0);
     CHECK(ism::average_precision(curve) == Approx(0.5 * 1 + 0.5 * 2 / 3));
-    CHECK(ism::equal_error_rate(curve) == 0.5);
+    CHECK(ism::precision_at_equal_recall(curve) == 0.5);
     CHECK(ism::best_f1(curve).f1 == Approx(0.8));
     CHECK(ism::best_f1(curve).score == Approx(0.98));
 
     // − + over two objects: the second is never found
     const auto late = ism::precision_recall(falling("-+"), 2);
     CHECK(ism::average_precision(late) == Approx(0.25));
-    CHECK(ism::equal_error_rate(late) == 0.5);
+    CHECK(ism::precision_at_equal_recall(late) == 0.5);
     CHECK(ism::best_f1(late).f1 == 0.5);
 
     const auto all = ism::precision_recall(falling("+++--"), 3);
     CHECK(ism::average_precision(all) == 1.0);
-    CHECK(ism::equal_error_rate(all) == 1.0);
+    CHECK(ism::precision_at_equal_recall(all) == 1.0);
     CHECK(ism::best_f1(all).f1 == 1.0);
 }
 
 TEST_CASE("With fewer detections than objects the equal error rate is the recall of all of them") {
-    CHECK(ism::equal_error_rate(ism::precision_recall(falling("+-+"), 8)) == 0.25);
+    CHECK(ism::precision_at_equal_recall(ism::precision_recall(falling("+-+"), 8)) == 0.25);
 }
 
 TEST_CASE("Figures do not depend on the order of detections of one score") {
@@ -87,7 +87,7 @@ TEST_CASE("Figures do not depend on the order of detections of one score") {
     std::sort(verdicts.begin(), verdicts.end(), before);
     do {
         const auto curve = ism::precision_recall(verdicts, 3);
-        ap.insert(ism::average_precision(curve)), eer.insert(ism::equal_error_rate(curve));
+        ap.insert(ism::average_precision(curve)), eer.insert(ism::precision_at_equal_recall(curve));
     } while (std::next_permutation(verdicts.begin(), verdicts.end(), before));
     CHECK(ap.size() == 1);
     REQUIRE(eer.size() == 1);
@@ -116,26 +116,36 @@ TEST_CASE("Figures agree with their definitions on random detections, with and w
             std::sort(verdicts.begin(), verdicts.end(), [](auto a, auto b) { return a.score > b.score; });
             double hits = 0;
             for (std::size_t i = 0; i < objects; ++i) hits += verdicts[i].right;
-            REQUIRE(ism::equal_error_rate(curve) == Approx(hits / double(objects)).margin(1e-12));
+            REQUIRE(ism::precision_at_equal_recall(curve) == Approx(hits / double(objects)).margin(1e-12));
         }
     }
+}
+
+TEST_CASE("Of cuts with the same F1 the best one is that with the highest score") {
+    const auto curve = ism::precision_recall(falling("+--+"), 2);  // F1 2/3 at 1 and at 4 detections
+    CHECK(ism::best_f1(curve).f1 == Approx(2.0 / 3));
+    CHECK(ism::best_f1(curve).score == 1.0);
+}
+
+TEST_CASE("Scores that are not numbers have no curve") {
+    CHECK_THROWS_AS(ism::precision_recall(std::vector<ScoredVerdict>{{std::nan(""), true}}, 1), ism::Error);
 }
 
 TEST_CASE("Nothing found scores zero, nothing to find scores nothing") {
     const auto none_found = ism::precision_recall({}, 5);
     CHECK(ism::average_precision(none_found) == 0);
-    CHECK(ism::equal_error_rate(none_found) == 0);
+    CHECK(ism::precision_at_equal_recall(none_found) == 0);
     CHECK(ism::best_f1(none_found).f1 == 0);
     CHECK(std::isnan(ism::best_f1(none_found).score));
 
     const auto none_there = ism::precision_recall(falling("--"), 0);
     CHECK(std::isnan(ism::average_precision(none_there)));
-    CHECK(std::isnan(ism::equal_error_rate(none_there)));
+    CHECK(std::isnan(ism::precision_at_equal_recall(none_there)));
     CHECK(std::isnan(ism::best_f1(none_there).f1));
     CHECK_THROWS_AS(ism::precision_recall(falling("+"), 0), ism::Error);
 }
 
-TEST_CASE("A confusion matrix counts the class of each image's surest detection") {
+TEST_CASE("A confusion matrix counts the class of each image's most confident detection") {
     const ism::Box box{0, 0, 10, 10};
     const std::vector<ism::TruthObject> truth{{0, 0, box}, {1, 0, box}, {2, 1, box}, {3, 1, box}};
     const std::vector<ism::FoundObject> found{

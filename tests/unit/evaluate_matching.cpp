@@ -22,7 +22,7 @@ namespace {
 const Judgement wrong{};
 const Judgement ignored{Verdict::ignored, ism::no_object};
 Judgement right(std::size_t truth) {
-    return {Verdict::right, truth};
+    return {Verdict::true_positive, truth};
 }
 FoundObject found_at(double x, double score, std::size_t image = 0, std::uint32_t class_index = 0) {
     return {image, class_index, {x, 0, 10, 10}, score};
@@ -40,6 +40,18 @@ TEST_CASE("An IoU of exactly the threshold is right, less is wrong") {
     CHECK_FALSE(half.fit({0, 0, 20.001, 10}, {0, 0, 10, 10}).has_value());
     CHECK_FALSE(IouRule{0}.fit({20, 0, 10, 10}, {0, 0, 10, 10}).has_value());
     CHECK(IouRule{0}.fit({9, 0, 10, 10}, {0, 0, 10, 10}).has_value());
+}
+
+TEST_CASE("A detection is ignored with half of it in an ignored region, not with less") {
+    const Box region{0, 0, 100, 10};
+    CHECK(IouRule{}.ignores({95, 0, 10, 10}, region));
+    CHECK_FALSE(IouRule{}.ignores({95.001, 0, 10, 10}, region));
+    CHECK(UiucRule{}.ignores({95, 0, 10, 10}, region));
+    CHECK_FALSE(UiucRule{}.ignores({95.001, 0, 10, 10}, region));
+    CHECK(IouRule{0}.ignores({99, 0, 10, 10}, region));
+    CHECK_FALSE(IouRule{0}.ignores({100, 0, 10, 10}, region));
+    CHECK_FALSE(IouRule{}.ignores({5, 5, 0, 0}, region));
+    CHECK_FALSE(UiucRule{}.ignores({5, 5, 0, 0}, region));
 }
 
 TEST_CASE("The UIUC rule takes centres on the edge of the ellipse and none beyond") {
@@ -94,6 +106,13 @@ TEST_CASE("Equal scores and equal fits go to the earlier one") {
     CHECK(match(twins, found, IouRule{}) == std::vector{right(0), right(1), wrong});
 }
 
+TEST_CASE("The earlier one goes first among many too") {
+    const std::vector<TruthObject> truth(100, truth_at(0));
+    const std::vector<FoundObject> found(100, found_at(0, 0.5));
+    const auto judgements = match(truth, found, IouRule{});
+    for (std::size_t i = 0; i < 100; ++i) REQUIRE(judgements[i] == right(i));
+}
+
 TEST_CASE("Objects of other images and classes are not found") {
     const std::vector<TruthObject> truth{truth_at(0, 1, 0), truth_at(0, 0, 1), truth_at(0, 1, 1)};
     const std::vector<FoundObject> found{found_at(0, 0.9, 0, 0), found_at(0, 0.8, 1, 1),
@@ -122,6 +141,9 @@ TEST_CASE("Nothing found and nothing to find") {
 TEST_CASE("Scores and boxes that are not numbers are refused") {
     std::vector<FoundObject> found{found_at(0, std::nan(""))};
     CHECK_THROWS_AS(match({}, found, IouRule{}), ism::Error);
-    found = {found_at(std::numeric_limits<double>::infinity(), 1)};
-    CHECK_THROWS_AS(match({}, found, IouRule{}), ism::Error);
+    for (double Box::*side : {&Box::x, &Box::y, &Box::width, &Box::height}) {
+        found = {found_at(0, 1)};
+        found[0].box.*side = std::numeric_limits<double>::infinity();
+        CHECK_THROWS_AS(match({}, found, IouRule{}), ism::Error);
+    }
 }

@@ -34,14 +34,17 @@ namespace detail {
     DatasetImage image;
     image.id = integer_member(record, "id", list);
     const std::string place = join_text(list, " with id ", image.id);
-    image.file = folder / path_from_utf8(text_member(record, "file_name", place));
+    const auto file_of = [&](const std::string& name) {
+        return folder / at_place(place, [&] { return path_from_utf8(name); });
+    };
+    image.file = file_of(text_member(record, "file_name", place));
     const std::int64_t width = integer_member(record, "width", place);
     const std::int64_t height = integer_member(record, "height", place);
     if (!is_image_size(width, height))
         refuse_json(place, "width, height", image_size_limits, join_text(width, "x", height));
     image.width = int(width), image.height = int(height);
     if (const Json* depth_file = optional_member(record, "depth_file_name", place)) {
-        image.depth_file = folder / path_from_utf8(to_text(*depth_file, "depth_file_name", place));
+        image.depth_file = file_of(to_text(*depth_file, "depth_file_name", place));
         image.depth_scale = number_member(record, "depth_scale", place);
         if (!(image.depth_scale > 0))
             refuse_json(place, "depth_scale", "metres per unit above 0", join_text(image.depth_scale));
@@ -107,7 +110,8 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
         if (image_at == image_of.end())
             refuse_json(own, "image_id", "the id of one of its images", join_text(image_id));
         DatasetImage& image = dataset.images[image_at->second];
-        const std::string place = join_text(own, " of image ", image_id, " ('", image.file.string(), "')");
+        const std::string place =
+            join_text(own, " of image ", image_id, " ('", one_line(image.file.string()), "')");
         const std::int64_t category_id = integer_member(record, "category_id", place);
         const auto class_at = class_of.find(category_id);
         if (class_at == class_of.end())

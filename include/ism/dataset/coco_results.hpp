@@ -26,7 +26,7 @@ struct Result {
     std::int64_t image_id = 0;     ///< DatasetImage::id
     std::int64_t category_id = 0;  ///< of Dataset::category_ids
     Box box;                       ///< pixels; may reach outside the image
-    double score = 0;              ///< larger is surer
+    double score = 0;              ///< larger is more confident
     std::optional<CompressedRle> segmentation = {};
     std::optional<Point3> position_m = {};  ///< in the camera frame
     double depth_m = no_depth;              ///< along the optical axis, metres; NaN = not known

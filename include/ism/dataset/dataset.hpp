@@ -32,7 +32,7 @@ struct DatasetAnnotation {
     std::int64_t id = 0;            ///< its own in the data set
     std::uint32_t class_index = 0;  ///< into Dataset::class_names
     Box box;                        ///< pixels; may reach outside the image
-    bool crowd = false;             ///< a group: neither to be learnt from nor to be missed
+    bool crowd = false;             ///< a group: ignored in training and evaluation
     MaskSource segmentation = {};
     [[nodiscard]] bool operator==(const DatasetAnnotation&) const = default;
 };
@@ -81,10 +81,13 @@ struct Dataset {
 /// @brief The part of a data set with these classes alone, in the order of `names`; class indices follow it.
 /// An image stays where it shows one of them, or where it had no annotation at all (background); images with
 /// nothing but other classes are dropped.
-/// @throws Error where a name is not a class of the data set or comes twice, or there is none.
+/// @throws Error where a name is not a class of the data set or comes twice, there is none, or the data set
+/// has not one category id for each class.
 [[nodiscard]] inline Dataset select_classes(const Dataset& dataset, std::span<const std::string> names) {
     std::string known;
-    for (const std::string& name : dataset.class_names) known += (known.empty() ? "" : ", ") + name;
+    for (const std::string& name : dataset.class_names) known += (known.empty() ? "" : ", ") + one_line(name);
+    expect(dataset.category_ids.size() == dataset.class_names.size(), "category ids of the data set",
+           dataset.class_names.size(), dataset.category_ids.size());
     expect(!names.empty(), "classes to select", lazy_text("at least one of: ", known), "none");
     Dataset part{.source = dataset.source};
     std::map<std::size_t, std::uint32_t> new_index;
@@ -96,7 +99,7 @@ struct Dataset {
         expect(new_index.emplace(index, std::uint32_t(part.class_names.size())).second, "class to select",
                "each name once", lazy_text("'", name, "' twice"));
         part.class_names.push_back(name);
-        part.category_ids.push_back(dataset.category_ids.at(index));
+        part.category_ids.push_back(dataset.category_ids[index]);
     }
     for (const DatasetImage& image : dataset.images) {
         DatasetImage chosen = image;

@@ -17,13 +17,14 @@
 #include "ism/dataset/coco_results.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/evaluate/evaluate.hpp"
+#include "ism/io/paths.hpp"
 
 namespace ism {
 
-/// @brief How results are measured against a data set.
+/// @brief Options of evaluate().
 struct EvaluateOptions {
     enum class Rule { iou, uiuc };
-    Rule rule = Rule::iou;       ///< when a box is right: IouRule or UiucRule
+    Rule rule = Rule::iou;       ///< when a box matches: IouRule or UiucRule
     double iou_threshold = 0.5;  ///< of IouRule, above 0, up to 1
 };
 
@@ -63,7 +64,7 @@ struct DatasetTruth {
     for (std::size_t i = 0; i < dataset.images.size(); ++i) image_of[dataset.images[i].id] = i;
     for (std::uint32_t c = 0; c < dataset.category_ids.size(); ++c) class_of[dataset.category_ids[c]] = c;
     const std::string set =
-        dataset.source.empty() ? "the data set" : "data set '" + dataset.source.string() + "'";
+        dataset.source.empty() ? "the data set" : "data set '" + one_line(dataset.source.string()) + "'";
     std::vector<FoundObject> found;
     for (const Result& result : results) {
         const auto image = image_of.find(result.image_id);
@@ -123,7 +124,8 @@ template <MatchRule R>
     };
     Json classes = Json::object();
     for (const ClassEvaluation& c : evaluation.classes) {
-        const Json counts = {{"objects", c.objects}, {"detections", c.detections}, {"right", c.right}};
+        const Json counts = {
+            {"objects", c.objects}, {"detections", c.detections}, {"right", c.true_positives}};
         classes[c.name] = add(counts, c.figures);
         classes[c.name]["best_f1_score"] = number(c.best_f1_score);
     }

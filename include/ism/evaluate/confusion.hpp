@@ -10,13 +10,13 @@
 
 namespace ism {
 
-/// @brief Which class images of a class were taken for.
+/// @brief A confusion matrix: images by true class (rows) and predicted class (columns).
 struct Confusion {
     std::size_t class_count = 0;
     std::vector<std::size_t>
         counts;  ///< class_count rows (true class) of class_count + 1 (found class, none)
 
-    /// @brief Images of class `truth` taken for `found`; `found == class_count`: nothing was found.
+    /// @brief Images of class `truth` predicted as `found`; `found == class_count`: nothing was detected.
     [[nodiscard]] std::size_t count(std::size_t truth, std::size_t found) const {
         return counts.at(truth * (class_count + 1) + found);
     }
@@ -26,7 +26,7 @@ struct Confusion {
         for (std::size_t found = 0; found <= class_count; ++found) sum += count(truth, found);
         return sum;
     }
-    /// @brief Share of all images that were taken for their class, 0 … 1; nothing found counts as wrong.
+    /// @brief Share of images predicted correctly, 0 … 1; images without a detection count as errors.
     [[nodiscard]] double accuracy() const {
         std::size_t right = 0, all = 0;
         for (std::size_t c = 0; c < class_count; ++c) right += count(c, c), all += images(c);
@@ -47,8 +47,8 @@ struct Confusion {
     return image_count > 0;
 }
 
-/// @brief The confusion matrix of images that hold one object each; an image is taken for the class of its
-/// detection of the best score (of equal ones the earlier), wherever it lies.
+/// @brief The confusion matrix of images that hold one object each; the predicted class is
+/// that of the detection with the best score (of equal ones the earlier), wherever it lies.
 /// @throws Error where an image holds more or less than one object, or an index is too large.
 [[nodiscard]] inline Confusion confusion(std::span<const TruthObject> truth,
                                          std::span<const FoundObject> found, std::size_t image_count,

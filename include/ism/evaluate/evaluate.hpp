@@ -19,24 +19,24 @@ namespace ism {
 
 /// @brief The figures of one class or their mean, all 0 … 1; NaN where there is nothing to measure.
 struct Figures {
-    double ap = std::numeric_limits<double>::quiet_NaN();        ///< average precision
-    double eer = std::numeric_limits<double>::quiet_NaN();       ///< precision where it equals recall
+    double ap = std::numeric_limits<double>::quiet_NaN();   ///< average precision
+    double eer = std::numeric_limits<double>::quiet_NaN();  ///< precision_at_equal_recall(): larger is better
     double best_f1 = std::numeric_limits<double>::quiet_NaN();   ///< best F1 along the curve
     double mask_iou = std::numeric_limits<double>::quiet_NaN();  ///< mean over the objects found, every score
 };
 
-/// @brief How well one class was found.
+/// @brief The evaluation of one class.
 struct ClassEvaluation {
     std::string name;
-    std::size_t objects = 0;     ///< to find
-    std::size_t detections = 0;  ///< counted, ignored ones left out
-    std::size_t right = 0;       ///< of these
+    std::size_t objects = 0;         ///< to find
+    std::size_t detections = 0;      ///< counted, ignored ones left out
+    std::size_t true_positives = 0;  ///< of these
     Figures figures;
     double best_f1_score = std::numeric_limits<double>::quiet_NaN();  ///< the cut of the best F1
     PrecisionRecall curve;
 };
 
-/// @brief How well everything was found.
+/// @brief The evaluation of all classes.
 struct Evaluation {
     std::vector<ClassEvaluation> classes;  ///< in the order of the class names
     Figures mean;                          ///< over classes with objects (mask_iou: with any measured)
@@ -44,8 +44,8 @@ struct Evaluation {
     std::vector<Judgement> judgements;     ///< of each found object, in the order given
 };
 
-/// @brief Gives the IoU of the masks of the found object and the true object of these indices; NaN = one has
-/// no mask. It is asked once for each object found.
+/// @brief Returns the IoU of the masks of a detection and a ground-truth object, given by index; NaN = one
+/// has no mask. Called once for each true positive.
 template <class F>
 concept MaskOverlap = requires(F& overlap, std::size_t index) {
     { overlap(index, index) } -> std::convertible_to<double>;
@@ -60,7 +60,7 @@ struct NoMasks {
 
 namespace detail {
 
-/// A mean that leaves NaN out; NaN of nothing.
+/// A mean that skips NaN; NaN if there is nothing else.
 struct Mean {
     double sum = 0;
     std::size_t count = 0;
@@ -84,9 +84,9 @@ template <MaskOverlap Masks>
     Mean overlap;
     for (std::size_t f = 0; f < found.size(); ++f) {
         if (found[f].class_index != c || judgements[f].verdict == Verdict::ignored) continue;
-        const bool right = judgements[f].verdict == Verdict::right;
+        const bool right = judgements[f].verdict == Verdict::true_positive;
         verdicts.push_back({found[f].score, right});
-        result.right += right;
+        result.true_positives += right;
         if (right) overlap.add(masks(f, judgements[f].truth));
     }
     result.detections = verdicts.size();
@@ -94,7 +94,7 @@ template <MaskOverlap Masks>
     const BestF1 best = best_f1(result.curve);
     result.best_f1_score = best.score;
     result.figures = {.ap = average_precision(result.curve),
-                      .eer = equal_error_rate(result.curve),
+                      .eer = precision_at_equal_recall(result.curve),
                       .best_f1 = best.f1,
                       .mask_iou = overlap.value()};
     return result;

@@ -18,7 +18,7 @@
 
 namespace ism {
 
-/// @brief An object that is known to be in an image.
+/// @brief A ground-truth object.
 struct TruthObject {
     std::size_t image = 0;          ///< index of the image
     std::uint32_t class_index = 0;  ///< index of the class
@@ -26,17 +26,17 @@ struct TruthObject {
     bool ignore = false;            ///< a crowd, say: finding it neither helps nor hurts
 };
 
-/// @brief An object that a detector says is in an image.
+/// @brief A detection.
 struct FoundObject {
     std::size_t image = 0;          ///< index of the image
     std::uint32_t class_index = 0;  ///< index of the class
     Box box;                        ///< pixels
-    double score = 0;               ///< larger is surer
+    double score = 0;               ///< larger is more confident
 };
 
-/// @brief When a found box counts as a true one: `fit` is the quality of the fit (larger is better) or
-/// nothing where it is not good enough; `ignores` says whether a found box that fits no object lies so
-/// far inside an ignored one that it is not counted.
+/// @brief When a detected box matches a ground-truth box: `fit` is the quality of the match (larger is
+/// better) or nothing where it does not match; `ignores` says whether a detected box that matches no object
+/// lies so far inside an ignored region that it is not counted.
 template <class R>
 concept MatchRule = requires(const R& rule, const Box& found, const Box& truth) {
     { rule.fit(found, truth) } -> std::convertible_to<std::optional<double>>;
@@ -52,9 +52,9 @@ namespace detail {
 
 }  // namespace detail
 
-/// @brief Right where intersection over union reaches a threshold (Everingham et al. 2010: 0.5).
+/// @brief A match where intersection over union reaches a threshold (Everingham et al. 2010: 0.5).
 struct IouRule {
-    double threshold = 0.5;  ///< 0 … 1; boxes without any overlap never fit
+    double threshold = 0.5;  ///< 0 … 1; boxes without any overlap never match
 
     [[nodiscard]] std::optional<double> fit(const Box& found, const Box& truth) const {
         const double overlap = iou(found, truth);
@@ -66,8 +66,9 @@ struct IouRule {
     }
 };
 
-/// @brief The rule of the UIUC car set (Agarwal, Awan, Roth 2004) for true boxes of any size: right where the
-/// found centre lies in the ellipse around the true centre whose half axes are a quarter of the true sides.
+/// @brief The rule of the UIUC car set (Agarwal, Awan, Roth 2004) for boxes of any size: a match where the
+/// detected centre lies in the ellipse around the true centre whose half axes are a quarter of the true
+/// sides.
 struct UiucRule {
     [[nodiscard]] std::optional<double> fit(const Box& found, const Box& truth) const {
         const double dx = found.centre().x - truth.centre().x, dy = found.centre().y - truth.centre().y;
@@ -81,20 +82,20 @@ struct UiucRule {
     }
 };
 
-/// @brief What became of a found object.
-enum class Verdict { right, wrong, ignored };
+/// @brief How a detection is counted.
+enum class Verdict { true_positive, false_positive, ignored };
 
 /// @brief Stands for "no object".
 inline constexpr std::size_t no_object = std::numeric_limits<std::size_t>::max();
 
-/// @brief Verdict on one found object and, where it is right, the index of the true one.
+/// @brief How one detection is counted and, for a true positive, the index of the object it found.
 struct Judgement {
-    Verdict verdict = Verdict::wrong;
+    Verdict verdict = Verdict::false_positive;
     std::size_t truth = no_object;
     [[nodiscard]] bool operator==(const Judgement&) const = default;
 };
 
-/// @brief Indices of the found objects, best score first; of equal scores the earlier one first.
+/// @brief Indices of the detections, best score first; of equal scores the earlier one first.
 /// @throws Error where a score or a box is not finite.
 [[nodiscard]] inline std::vector<std::size_t> by_score(std::span<const FoundObject> found) {
     for (const FoundObject& f : found) {
@@ -109,15 +110,16 @@ struct Judgement {
     return order;
 }
 
-/// @brief Judges each found object, best score first: it takes the best fitting object of its image and class
-/// that is still free (of equal fits the earlier one), so each object is found at most once and what finds it
-/// again is wrong. What fits none but lies in an ignored object is ignored.
-/// @return one judgement for each found object, in the order given
+/// @brief Greedy matching, best score first: each detection takes the best matching object of its image and
+/// class that is still unmatched (of equal matches the earlier one), so that each object is found at most
+/// once and further detections of it are false positives. A detection that matches no object but lies in an
+/// ignored one is ignored.
+/// @return one judgement for each detection, in the order given
 /// @throws Error where a score or a box is not finite.
 template <MatchRule Rule>
 [[nodiscard]] std::vector<Judgement> match(std::span<const TruthObject> truth,
                                            std::span<const FoundObject> found, const Rule& rule) {
-    // objects by image and class, so that only few have to be looked at
+    // objects sorted by image and class, so that those of a detection are found by binary search
     std::vector<std::size_t> sorted(truth.size());
     std::iota(sorted.begin(), sorted.end(), std::size_t{0});
     const auto place = [](const auto& object) { return std::pair(object.image, object.class_index); };
@@ -135,11 +137,11 @@ template <MatchRule Rule>
             const TruthObject& t = truth[*it];
             Judgement& judgement = judgements[f];
             if (t.ignore) {
-                if (judgement.verdict == Verdict::wrong && rule.ignores(object.box, t.box))
+                if (judgement.verdict == Verdict::false_positive && rule.ignores(object.box, t.box))
                     judgement.verdict = Verdict::ignored;
             } else if (taken[*it] == 0) {
                 const std::optional<double> fit = rule.fit(object.box, t.box);
-                if (fit && *fit > best) best = *fit, judgement = {Verdict::right, *it};
+                if (fit && *fit > best) best = *fit, judgement = {Verdict::true_positive, *it};
             }
         }
         if (judgements[f].truth != no_object) taken[judgements[f].truth] = 1;

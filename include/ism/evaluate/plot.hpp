@@ -21,7 +21,7 @@ namespace ism {
         PlotCurve curve{.name = figures.name + ", AP " + percent_text(figures.figures.ap) + " %",
                         .color = class_color(c)};
         for (const PrecisionRecallPoint& point : figures.curve.points) {
-            // the curve begins at recall 0 with the precision of the surest detections
+            // the curve starts at recall 0 with the precision of the most confident detections
             if (curve.x.empty()) curve.x.push_back(0), curve.y.push_back(point.precision);
             curve.x.push_back(point.recall), curve.y.push_back(point.precision);
         }

@@ -13,30 +13,30 @@
 
 namespace ism {
 
-/// @brief A score and whether what got it was right.
+/// @brief The score of a detection and whether it is a true positive.
 struct ScoredVerdict {
     double score = 0;
     bool right = false;
 };
 
-/// @brief What is kept when everything below a score is dropped.
+/// @brief The operating point at one score threshold.
 struct PrecisionRecallPoint {
-    double score = 0;       ///< the lowest score kept
-    std::size_t kept = 0;   ///< detections kept
-    std::size_t right = 0;  ///< of these, right ones
-    double precision = 0;   ///< right / kept
-    double recall = 0;      ///< right / objects
+    double score = 0;                ///< the lowest score kept
+    std::size_t kept = 0;            ///< detections kept
+    std::size_t true_positives = 0;  ///< of these
+    double precision = 0;            ///< true positives / kept
+    double recall = 0;               ///< true positives / objects
 };
 
-/// @brief Precision and recall for every score to cut at: one point for each different score, falling, since
-/// detections of one score are kept or dropped together.
+/// @brief A precision–recall curve: one point for each distinct score, in descending order, since detections
+/// of equal score are kept or dropped together.
 struct PrecisionRecall {
     std::size_t objects = 0;  ///< objects there are to find
     std::vector<PrecisionRecallPoint> points;
 };
 
 /// @brief The precision–recall curve of detections in any order, `objects` being there to find.
-/// @throws Error where a score is not finite or more are right than there are objects.
+/// @throws Error where a score is not finite or there are more true positives than objects.
 [[nodiscard]] inline PrecisionRecall precision_recall(std::span<const ScoredVerdict> verdicts,
                                                       std::size_t objects) {
     std::vector<ScoredVerdict> sorted(verdicts.begin(), verdicts.end());
@@ -51,7 +51,7 @@ struct PrecisionRecall {
         if (i + 1 < sorted.size() && sorted[i + 1].score == sorted[i].score) continue;
         curve.points.push_back({.score = sorted[i].score,
                                 .kept = i + 1,
-                                .right = right,
+                                .true_positives = right,
                                 .precision = double(right) / double(i + 1),
                                 .recall = objects > 0 ? double(right) / double(objects) : 0});
     }
@@ -71,17 +71,20 @@ struct PrecisionRecall {
     return area;
 }
 
-/// @brief Precision where it equals recall: as many detections are kept as there are objects. With fewer
+/// @brief Precision where it equals recall, 1 − the equal error rate (papers print it as "EER performance" or
+/// "EER"): as many detections are kept as there are objects. With fewer
 /// detections than objects it is the recall of all of them. Where a cut there parts detections of one score,
 /// it is the mean over their orders. 0 … 1; NaN without objects.
-[[nodiscard]] inline double equal_error_rate(const PrecisionRecall& curve) {
+[[nodiscard]] inline double precision_at_equal_recall(const PrecisionRecall& curve) {
     if (curve.objects == 0) return std::numeric_limits<double>::quiet_NaN();
     const double objects = double(curve.objects);
     PrecisionRecallPoint before;
     for (const PrecisionRecallPoint& point : curve.points) {
         if (point.kept >= curve.objects) {
             const double share = (objects - double(before.kept)) / double(point.kept - before.kept);
-            return (double(before.right) + share * double(point.right - before.right)) / objects;
+            return (double(before.true_positives) +
+                    share * double(point.true_positives - before.true_positives)) /
+                   objects;
         }
         before = point;
     }
@@ -90,7 +93,7 @@ struct PrecisionRecall {
 
 /// @brief The point of the best F1.
 struct BestF1 {
-    double f1 = std::numeric_limits<double>::quiet_NaN();     ///< 2·right / (kept + objects), 0 … 1
+    double f1 = std::numeric_limits<double>::quiet_NaN();  ///< 2·true positives / (kept + objects), 0 … 1
     double score = std::numeric_limits<double>::quiet_NaN();  ///< keep what reaches this score; NaN: nothing
 };
 
@@ -101,7 +104,7 @@ struct BestF1 {
     if (curve.objects == 0) return best;
     best.f1 = 0;
     for (const PrecisionRecallPoint& point : curve.points) {
-        const double f1 = 2 * double(point.right) / double(point.kept + curve.objects);
+        const double f1 = 2 * double(point.true_positives) / double(point.kept + curve.objects);
         if (f1 > best.f1) best = {f1, point.score};
     }
     return best;

@@ -28,7 +28,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// @brief Rows of cells as text: the first column to the left, the others to the right, two blanks between;
+/// @brief Rows of cells as text: the first column left-aligned, the others right-aligned, two blanks between;
 /// a newline after each row. Short rows are filled with empty cells.
 [[nodiscard]] inline std::string align_columns(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths;
@@ -50,6 +50,7 @@ namespace detail {
 }
 
 /// @brief The cells of the table of an evaluation: a heading, a row for each class and their mean, percent.
+/// "EER" is the precision where it equals recall.
 [[nodiscard]] inline std::vector<std::vector<std::string>> table_cells(const Evaluation& evaluation) {
     std::vector<std::vector<std::string>> rows = {
         {"class", "objects", "found", "right", "AP %", "EER %", "F1 %", "mask IoU %"}};
@@ -60,9 +61,10 @@ namespace detail {
     };
     std::size_t objects = 0, detections = 0, right = 0;
     for (const ClassEvaluation& c : evaluation.classes) {
-        add({c.name, std::to_string(c.objects), std::to_string(c.detections), std::to_string(c.right)},
+        add({c.name, std::to_string(c.objects), std::to_string(c.detections),
+             std::to_string(c.true_positives)},
             c.figures);
-        objects += c.objects, detections += c.detections, right += c.right;
+        objects += c.objects, detections += c.detections, right += c.true_positives;
     }
     add({"mean", std::to_string(objects), std::to_string(detections), std::to_string(right)},
         evaluation.mean);

@@ -28,7 +28,7 @@ namespace ism {
 
 namespace detail {
 
-/// @brief An image file in memory, whole and of a bearable size, not yet decoded.
+/// @brief An image file in memory, complete and within the size limits, not yet decoded.
 struct ImageFile {
     std::filesystem::path path;
     std::vector<std::uint8_t> bytes;  ///< at most 2^30

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ism/core/error.hpp"
+#include "ism/io/paths.hpp"
 #include "ism/io/write_file.hpp"
 
 /// Reading JSON with messages that name the place: `place` is the file and the record, such as
@@ -21,7 +22,7 @@ using Json = nlohmann::json;
 
 [[noreturn]] inline void refuse_json(const std::string& place, std::string_view what,
                                      std::string_view expected, std::string_view actual) {
-    throw FileError(join_text(place, ": ", what, ": expected ", expected, ", got ", actual));
+    throw FileError(one_line(join_text(place, ": ", what, ": expected ", expected, ", got ", actual)));
 }
 
 /// @brief A short description of a JSON value, for messages.
@@ -46,10 +47,13 @@ using Json = nlohmann::json;
     }
 }
 
+/// @brief The largest JSON file that is read; what is larger is refused before memory is taken for it.
+inline constexpr std::uintmax_t max_json_bytes = std::uintmax_t(1) << 31;
+
 /// @brief The JSON of a file.
-/// @throws FileError where it cannot be read or is malformed.
+/// @throws FileError where it cannot be read, is too large, or malformed.
 [[nodiscard]] inline Json read_json(const std::filesystem::path& path) {
-    return parse_json(read_text(path), file_text(path));
+    return parse_json(read_text(path, max_json_bytes), file_text(path));
 }
 
 /// @brief JSON as text, without line breaks.

@@ -5,16 +5,31 @@
 #include <concepts>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "ism/core/error.hpp"
+#include "ism/core/number_text.hpp"
 
-/// Names of files in messages and in other files.
+/// File names in messages and in JSON.
 namespace ism {
+
+/// @brief A text without line breaks and other control characters: "\\x0a" and so on stand for them.
+[[nodiscard]] inline std::string one_line(std::string_view text) {
+    std::string line;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20 || byte == 0x7f)
+            line += "\\x" + hex_text(byte, 2);
+        else
+            line += c;
+    }
+    return line;
+}
 
 /// @brief "file 'a/b.png'", for messages.
 [[nodiscard]] inline std::string file_text(const std::filesystem::path& path) {
-    return join_text("file '", path.string(), "'");
+    return join_text("file '", one_line(path.string()), "'");
 }
 
 /// @brief Calls `read` and returns what it gives; the message of an Error gets `place`, such as file_text(),
@@ -29,14 +44,17 @@ decltype(auto) at_place(const std::string& place, Read&& read) {
     }
 }
 
-/// @brief A file name as it stands in JSON: UTF-8, folders parted by "/".
+/// @brief A file name as it stands in JSON: UTF-8, folders separated by "/".
 [[nodiscard]] inline std::string path_to_utf8(const std::filesystem::path& path) {
     const std::u8string text = path.generic_u8string();
     return std::string(text.begin(), text.end());
 }
 
 /// @brief The reverse of path_to_utf8().
+/// @throws FileError for a text with a NUL character, where the system would cut the name.
 [[nodiscard]] inline std::filesystem::path path_from_utf8(const std::string& text) {
+    expect<FileError>(text.find('\0') == std::string::npos, "file name", "no NUL character",
+                      lazy_text("'", one_line(text), "'"));
     return std::filesystem::path(std::u8string(text.begin(), text.end()));
 }
 

@@ -13,20 +13,20 @@
 
 #include "ism/core/text.hpp"
 
-/// A guard before stb_image 2.27 (Debian 12), which
-/// - fills the missing pixels of a cut JPEG, BMP or PNM file with anything and reports success,
-/// - does not look at a PNG's checksums,
+/// A shim in front of stb_image 2.27 (Debian 12), which
+/// - fills the missing pixels of a cut JPEG, BMP or PNM file with arbitrary values and reports success,
+/// - does not verify a PNG's checksums,
 /// - writes beyond its tables where a JPEG's code table is too long, and reads tables the file never gave.
-/// So the parts of a file are looked through before stb decodes them. With a decoder that refuses such files
-/// this header, and its calls in io/images.hpp, can go.
+/// So the segments of a file are validated before stb decodes them. With a decoder that refuses such files
+/// this header and its calls in io/images.hpp can be removed.
 namespace ism::detail {
 
 using ByteSpan = std::span<const std::uint8_t>;
 
-/// @brief What the parts of a JPEG have given so far.
+/// @brief State of the validation of a JPEG's segments.
 class JpegParts {
 public:
-    /// @brief Takes in one part. False where it cannot be or stands before what it needs.
+    /// @brief Adds one segment; false where it is invalid or precedes a table it needs.
     [[nodiscard]] bool add(std::uint8_t marker, ByteSpan content) {
         if (marker == 0xc4) return add_codes(content);
         if (marker == 0xdb) return add_quantisers(content);
@@ -34,7 +34,7 @@ public:
         return marker != 0xda || add_scan(content);
     }
 
-    /// @brief Whether every colour has got its pixels.
+    /// @brief Whether every component has been scanned.
     [[nodiscard]] bool complete() const {
         for (const Component& component : components_)
             if (!component.scanned) return false;

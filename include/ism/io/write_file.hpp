@@ -44,12 +44,12 @@ requires(sizeof(typename Bytes::value_type) == 1) [[nodiscard]] Bytes
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
     if (!stream) throw FileError(file_text(path) + ": expected a readable file, got " + system_reason());
-    const std::uintmax_t told = std::filesystem::file_size(path, ignored);
+    const std::uintmax_t size = std::filesystem::file_size(path, ignored);
     const bool sized = std::filesystem::is_regular_file(status) && !ignored;
-    if (sized && told > most_bytes)
-        throw FileError(join_text(file_text(path), ": expected at most ", most_bytes, " bytes, got ", told));
+    if (sized && size > most_bytes)
+        throw FileError(join_text(file_text(path), ": expected at most ", most_bytes, " bytes, got ", size));
     Bytes bytes;
-    bytes.resize(sized ? std::size_t(told) + 1 : 65536);
+    bytes.resize(sized ? std::size_t(size) + 1 : 65536);
     std::size_t count = 0;
     while (stream) {
         if (count == bytes.size()) bytes.resize(2 * count);
@@ -83,9 +83,9 @@ requires(sizeof(typename Bytes::value_type) == 1) [[nodiscard]] Bytes
     return detail::read_whole<std::string>(path, most_bytes);
 }
 
-/// @brief Writes a file at one stroke: `write(stream)` fills a file of another name in the same folder, which
-/// then takes the place of `path`. On failure `path` is as it was and nothing half-written remains. What is
-/// not a plain file (a pipe, /dev/stdout) is written to directly.
+/// @brief Writes a file atomically: `write(stream)` fills a temporary file in the same folder, which is then
+/// renamed to `path`. On failure `path` is unchanged and the temporary file is removed. What is not a regular
+/// file (a pipe, /dev/stdout) is written directly.
 /// @throws FileError where the folder is missing or cannot be written to, `path` is a folder, or the disk is
 /// full; and whatever `write` throws.
 template <std::invocable<std::ostream&> Write>
@@ -96,6 +96,8 @@ void write_file(const std::filesystem::path& path, Write&& write) {
     const std::string text = file_text(path);
     if (fs::is_directory(status)) throw FileError(text + ": expected a file to write, got a folder");
     if (path.filename().empty()) throw FileError(text + ": expected a file to write, got no file name");
+    if (status.type() == fs::file_type::none)  // a link to itself, say, or a folder that may not be entered
+        throw FileError(text + ": expected a place to write to, got " + failure.message());
     const bool direct = fs::exists(status) && !fs::is_regular_file(status);
     fs::path target = path;
     if (fs::is_regular_file(status)) {
@@ -129,7 +131,7 @@ void write_file(const std::filesystem::path& path, Write&& write) {
     }
 }
 
-/// @brief Writes `bytes` as a file at one stroke.
+/// @brief Writes `bytes` to a file atomically.
 /// @throws FileError as the other write_file() does.
 inline void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
     write_file(path, [&](std::ostream& stream) {
@@ -137,7 +139,7 @@ inline void write_file(const std::filesystem::path& path, std::span<const std::u
     });
 }
 
-/// @brief Writes `text` as a file at one stroke, unchanged.
+/// @brief Writes `text` to a file atomically, unchanged.
 /// @throws FileError as the other write_file() does.
 inline void write_file(const std::filesystem::path& path, std::string_view text) {
     write_file(path, [&](std::ostream& stream) { stream.write(text.data(), std::streamsize(text.size())); });

@@ -67,10 +67,10 @@ inline constexpr std::size_t max_header_bytes = std::size_t(1) << 24;
         read(place.tensor.bytes.data(), place.tensor.bytes.size());
         file.tensors.emplace(std::move(place.name), std::move(place.tensor));
     }
-    if (const auto told = file.metadata.find(checksum_key); told != file.metadata.end()) {
-        expect<FileError>(told->second == checksum(file), file.source, "unchanged content (checksum)",
+    if (const auto stated = file.metadata.find(checksum_key); stated != file.metadata.end()) {
+        expect<FileError>(stated->second == checksum(file), file.source, "unchanged content (checksum)",
                           "altered content");
-        file.metadata.erase(told);
+        file.metadata.erase(stated);
         file.has_checksum = true;
     }
     return file;
@@ -98,7 +98,7 @@ inline constexpr std::size_t max_header_bytes = std::size_t(1) << 24;
     return detail::read_tensors(stream, bytes, text);
 }
 
-/// @brief Writes a safetensors file at one stroke, with a checksum in the metadata as "data_hash". The same
+/// @brief Writes a safetensors file atomically, with a checksum in the metadata as "data_hash". The same
 /// content gives the same bytes.
 /// @throws FileError where the file cannot be written, a name or text is not UTF-8, a name is "__metadata__",
 /// the metadata has "data_hash", a tensor's bytes do not fit its shape, or the header becomes too long.

@@ -55,7 +55,7 @@ struct TensorPlace {
     return result;
 }
 
-/// @brief What a header tells.
+/// @brief The content of a header.
 struct TensorHeader {
     std::map<std::string, std::string> metadata;
     std::vector<TensorPlace> places;  ///< in the order of the data

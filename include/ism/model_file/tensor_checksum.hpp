@@ -44,7 +44,7 @@ private:
     std::uint64_t state_ = 0xcbf29ce484222325u;
 };
 
-/// @brief The checksum of all a file tells: texts, names, types, shapes, and numbers.
+/// @brief The checksum of the whole content of a file: metadata, names, types, shapes and numbers.
 [[nodiscard]] inline std::string checksum(const TensorFile& file) {
     Checksum sum;
     const auto add_number = [&](std::uint64_t number) { sum.add(&number, sizeof number); };

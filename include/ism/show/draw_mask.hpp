@@ -10,23 +10,22 @@
 
 namespace ism {
 
-/// @brief Mixes a colour into the figure pixels of a mask that lies over the whole picture.
+/// @brief Mixes a colour into the figure pixels of a mask that lies over the whole image.
 /// @throws Error where the sizes differ.
-inline void blend_mask(ImageView<Rgb> picture, ImageView<const std::uint8_t> mask, Rgb color,
-                       double opacity) {
-    expect(picture.width() == mask.width() && picture.height() == mask.height(), "mask size",
-           size_text(picture), size_text(mask));
+inline void blend_mask(ImageView<Rgb> image, ImageView<const std::uint8_t> mask, Rgb color, double opacity) {
+    expect(image.width() == mask.width() && image.height() == mask.height(), "mask size", size_text(image),
+           size_text(mask));
     for (int y = 0; y < mask.height(); ++y)
         for (int x = 0; x < mask.width(); ++x)
-            if (mask(x, y) != 0) picture(x, y) = mix(picture(x, y), color, opacity);
+            if (mask(x, y) != 0) image(x, y) = mix(image(x, y), color, opacity);
 }
 
-/// @brief Paints the figure pixels that have ground, or the picture's edge, within `width_px` pixels.
+/// @brief Paints the figure pixels that have ground, or the image's edge, within `width_px` pixels.
 /// @throws Error where the sizes differ.
-inline void draw_contour(ImageView<Rgb> picture, ImageView<const std::uint8_t> mask, Rgb color,
+inline void draw_contour(ImageView<Rgb> image, ImageView<const std::uint8_t> mask, Rgb color,
                          int width_px = 1) {
-    expect(picture.width() == mask.width() && picture.height() == mask.height(), "mask size",
-           size_text(picture), size_text(mask));
+    expect(image.width() == mask.width() && image.height() == mask.height(), "mask size", size_text(image),
+           size_text(mask));
     const auto near_ground = [&](int x, int y) {
         for (int v = -width_px; v <= width_px; ++v)
             for (int u = -width_px; u <= width_px; ++u)
@@ -37,22 +36,22 @@ inline void draw_contour(ImageView<Rgb> picture, ImageView<const std::uint8_t> m
     };
     for (int y = 0; y < mask.height(); ++y)
         for (int x = 0; x < mask.width(); ++x)
-            if (mask(x, y) != 0 && near_ground(x, y)) picture(x, y) = color;
+            if (mask(x, y) != 0 && near_ground(x, y)) image(x, y) = color;
 }
 
-/// @brief A picture made `factor` times as wide and high: smooth between pixels.
+/// @brief An image made `factor` times as wide and high: smooth between pixels.
 /// @throws Error where `factor` is below 1.
-[[nodiscard]] inline RgbImage magnified(ImageView<const Rgb> picture, int factor) {
+[[nodiscard]] inline RgbImage magnified(ImageView<const Rgb> image, int factor) {
     expect(factor >= 1, "magnification", "1 or more", factor);
-    RgbImage large(picture.width() * factor, picture.height() * factor);
+    RgbImage large(image.width() * factor, image.height() * factor);
     for (int y = 0; y < large.height(); ++y)
         for (int x = 0; x < large.width(); ++x) {
-            const double u = std::clamp((x + 0.5) / factor - 0.5, 0.0, picture.width() - 1.0);
-            const double v = std::clamp((y + 0.5) / factor - 0.5, 0.0, picture.height() - 1.0);
+            const double u = std::clamp((x + 0.5) / factor - 0.5, 0.0, image.width() - 1.0);
+            const double v = std::clamp((y + 0.5) / factor - 0.5, 0.0, image.height() - 1.0);
             const int x0 = int(u), y0 = int(v);
-            const int x1 = std::min(x0 + 1, picture.width() - 1), y1 = std::min(y0 + 1, picture.height() - 1);
-            large(x, y) = mix(mix(picture(x0, y0), picture(x1, y0), u - x0),
-                              mix(picture(x0, y1), picture(x1, y1), u - x0), v - y0);
+            const int x1 = std::min(x0 + 1, image.width() - 1), y1 = std::min(y0 + 1, image.height() - 1);
+            large(x, y) = mix(mix(image(x0, y0), image(x1, y0), u - x0),
+                              mix(image(x0, y1), image(x1, y1), u - x0), v - y0);
         }
     return large;
 }

@@ -50,15 +50,14 @@ inline constexpr std::array<std::uint64_t, 95> font_letters = {
 }
 
 /// @brief Writes one line of text whose first letter's left upper corner is (x, y), each of its pixels
-/// `magnify` pixels wide; what lies outside the picture is cut off.
-inline void draw_text(ImageView<Rgb> picture, int x, int y, std::string_view text, Rgb color,
-                      int magnify = 1) {
+/// `magnify` pixels wide; what lies outside the image is cut off.
+inline void draw_text(ImageView<Rgb> image, int x, int y, std::string_view text, Rgb color, int magnify = 1) {
     for (std::size_t i = 0; i < text.size(); ++i)
         for (int v = 0; v < (font_height + 2) * magnify; ++v)
             for (int u = 0; u < font_width * magnify; ++u) {
                 const int px = x + int(i) * font_step * magnify + u;
-                if (font_ink(text[i], u / magnify, v / magnify) && picture.contains(px, y + v))
-                    picture(px, y + v) = color;
+                if (font_ink(text[i], u / magnify, v / magnify) && image.contains(px, y + v))
+                    image(px, y + v) = color;
             }
 }
 

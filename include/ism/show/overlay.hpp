@@ -18,8 +18,8 @@ namespace ism {
 
 /// @brief How overlays look.
 struct OverlayOptions {
-    int side_px = 640;     ///< small pictures are magnified a whole number of times up to this longer side
-    bool close_up = true;  ///< rows show a detection and its surroundings instead of the whole picture
+    int side_px = 640;         ///< small images are magnified a whole number of times up to this longer side
+    bool close_up = true;      ///< rows show a detection and its surroundings instead of the whole image
     double circle_scales = 3;  ///< radius of a feature's circle in multiples of its scale
 };
 
@@ -47,17 +47,17 @@ inline void check_segmentation(const Segmentation& part) {
                "probability map size", size_text(part.mask), size_text(*map));
 }
 
-/// The row of overlay_row() for the whole picture.
-[[nodiscard]] inline RgbImage four_panels(ImageView<const Rgb> picture, const Detections& detections,
+/// The row of draw_explanation() for the whole image.
+[[nodiscard]] inline RgbImage four_panels(ImageView<const Rgb> image, const Detections& detections,
                                           const Detection& detection,
                                           std::span<const std::string> class_names,
                                           const OverlayOptions& options) {
     const Segmentation& part = detection.segmentation;
     detail::check_segmentation(part);
-    const int factor = detail::magnification(picture, options.side_px);
-    const int width = picture.width(), height = picture.height();
+    const int factor = detail::magnification(image, options.side_px);
+    const int width = image.width(), height = image.height();
     const Rgb color = class_color(detection.class_index);
-    const RgbImage large = magnified(picture, factor);
+    const RgbImage large = magnified(image, factor);
     const Box box = detail::magnified(detection.box, factor);
     const double pen = detail::letter_size(large.width());
 
@@ -95,38 +95,38 @@ inline void check_segmentation(const Segmentation& part) {
 
 }  // namespace detail
 
-/// @brief Four pictures of one detection side by side: the features that voted for it, with lines to its
+/// @brief Four images of one detection side by side: the features that voted for it, with lines to its
 /// centre; the maps p(figure) and p(ground), both on one scale whose brightest value stands in the caption;
 /// the figure in its surroundings.
 /// @throws Error where there is no detection `which`, its class has no name, its votes point to features that
 /// are not there or its segmentation's parts differ in size.
-[[nodiscard]] inline RgbImage overlay_row(ImageView<const Rgb> picture, const Detections& detections,
-                                          std::size_t which, std::span<const std::string> class_names,
-                                          const OverlayOptions& options = {}) {
+[[nodiscard]] inline RgbImage draw_explanation(ImageView<const Rgb> image, const Detections& detections,
+                                               std::size_t which, std::span<const std::string> class_names,
+                                               const OverlayOptions& options = {}) {
     expect(which < detections.objects.size(), "index of a detection",
            lazy_text("below ", detections.objects.size()), which);
     const Detection& detection = detections.objects[which];
-    if (!options.close_up) return detail::four_panels(picture, detections, detection, class_names, options);
+    if (!options.close_up) return detail::four_panels(image, detections, detection, class_names, options);
     const Box part =
-        detail::surroundings(detections, detection, picture.width(), picture.height(), options.circle_scales);
+        detail::surroundings(detections, detection, image.width(), image.height(), options.circle_scales);
     const Detections there = detail::moved_to(detections, detection, int(part.x), int(part.y));
-    return detail::four_panels(picture.region(int(part.x), int(part.y), int(part.width), int(part.height)),
+    return detail::four_panels(image.region(int(part.x), int(part.y), int(part.width), int(part.height)),
                                there, there.objects.front(), class_names, options);
 }
 
-/// @brief All detections in one picture: tinted figures with contours, boxes, class names and scores, the
+/// @brief All detections in one image: tinted figures with contours, boxes, class names and scores, the
 /// strongest on top.
 /// @throws Error where the class of a detection has no name.
-[[nodiscard]] inline RgbImage overlay_all(ImageView<const Rgb> picture, const Detections& detections,
-                                          std::span<const std::string> class_names,
-                                          const OverlayOptions& options = {}) {
-    const int factor = detail::magnification(picture, options.side_px);
-    RgbImage result = magnified(picture, factor);
+[[nodiscard]] inline RgbImage draw_detections(ImageView<const Rgb> image, const Detections& detections,
+                                              std::span<const std::string> class_names,
+                                              const OverlayOptions& options = {}) {
+    const int factor = detail::magnification(image, options.side_px);
+    RgbImage result = magnified(image, factor);
     const int pen = detail::letter_size(result.width());
     for (std::size_t i = detections.objects.size(); i-- > 0;) {
         const Detection& detection = detections.objects[i];
         const Mask mask =
-            detail::magnified(whole_mask(detection.segmentation, picture.width(), picture.height()), factor);
+            detail::magnified(whole_mask(detection.segmentation, image.width(), image.height()), factor);
         const Rgb color = class_color(detection.class_index);
         blend_mask(result, mask, color, 0.35);
         draw_contour(result, mask, color, pen);

@@ -15,8 +15,8 @@ namespace ism::detail {
     return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
 }
 
-/// The part of a width × height picture, whole pixels, that shows a detection, the features that vote for it
-/// and some surroundings; the whole picture where the detection lies outside.
+/// The part of a width × height image, whole pixels, that shows a detection, the features that vote for it
+/// and some surroundings; the whole image where the detection lies outside.
 [[nodiscard]] inline Box surroundings(const Detections& detections, const Detection& detection, int width,
                                       int height, double circle_scales) {
     const Box page{0, 0, double(width), double(height)};
@@ -41,7 +41,7 @@ namespace ism::detail {
     return {x, y, std::ceil(common.x + common.width) - x, std::ceil(common.y + common.height) - y};
 }
 
-/// One detection alone, with the features, in a picture that begins at pixel (x, y) of its own.
+/// One detection alone, with the features, in an image that begins at pixel (x, y) of its own.
 [[nodiscard]] inline Detections moved_to(const Detections& detections, const Detection& detection, int x,
                                          int y) {
     Detections result{.objects = {detection}, .features = detections.features};

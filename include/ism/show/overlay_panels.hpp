@@ -18,20 +18,20 @@
 
 namespace ism::detail {
 
-// The parts of the pictures of io/overlay.hpp. Small pictures are magnified by a whole number first.
+// The parts of the images of show/overlay.hpp. Small images are magnified by a whole number first.
 
-/// By how much a picture is magnified so that its longer side comes near `side_px`.
-[[nodiscard]] inline int magnification(ImageView<const Rgb> picture, int side_px) {
-    expect(!picture.empty(), "picture size", "at least 1x1", size_text(picture));
-    return std::clamp(side_px / std::max(picture.width(), picture.height()), 1, 16);
+/// By how much an image is magnified so that its longer side comes near `side_px`.
+[[nodiscard]] inline int magnification(ImageView<const Rgb> image, int side_px) {
+    expect(!image.empty(), "image size", "at least 1x1", size_text(image));
+    return std::clamp(side_px / std::max(image.width(), image.height()), 1, 16);
 }
 
-/// How large letters are in a picture of this width.
+/// How large letters are in an image of this width.
 [[nodiscard]] inline int letter_size(int width_px) {
     return width_px >= 320 ? 2 : 1;
 }
 
-/// Where a point and a box of the picture lie in the magnified one.
+/// Where a point and a box of the image lie in the magnified one.
 [[nodiscard]] inline Point2 magnified(Point2 p, int factor) {
     return {(p.x + 0.5) * factor - 0.5, (p.y + 0.5) * factor - 0.5};
 }
@@ -52,13 +52,13 @@ namespace ism::detail {
     return names[detection.class_index] + " " + number_text(detection.score, 3);
 }
 
-/// Writes a label at a box: above it, or where that place is outside the picture or `used` already, inside
+/// Writes a label at a box: above it, or where that place is outside the image or `used` already, inside
 /// its upper edge or below it. Adds the place to `used`.
-inline void draw_label(ImageView<Rgb> picture, const Box& box, const std::string& text, Rgb color,
+inline void draw_label(ImageView<Rgb> image, const Box& box, const std::string& text, Rgb color,
                        std::vector<Box>& used) {
-    const int size = letter_size(picture.width());
+    const int size = letter_size(image.width());
     const double width = text_width(text, size) + 4 * size, height = (font_height + 3) * size;
-    const Box page{0, 0, double(picture.width()), double(picture.height())};
+    const Box page{0, 0, double(image.width()), double(image.height())};
     const double x = std::clamp(box.x, 0.0, std::max(0.0, page.width - width));
     Box place{x, std::clamp(box.y, 0.0, std::max(0.0, page.height - height)), width, height};
     for (const double y : {box.y - height, box.y, box.y + box.height - height, box.y + box.height}) {
@@ -71,8 +71,8 @@ inline void draw_label(ImageView<Rgb> picture, const Box& box, const std::string
     }
     place.x = std::round(place.x), place.y = std::round(place.y);
     used.push_back(place);
-    fill_box(picture, place, color);
-    draw_text(picture, int(place.x) + 2 * size, int(place.y) + 3 * size / 2, text, ink_on(color), size);
+    fill_box(image, place, color);
+    draw_text(image, int(place.x) + 2 * size, int(place.y) + 3 * size / 2, text, ink_on(color), size);
 }
 
 /// What a feature adds to a detection, all its votes together.
@@ -100,9 +100,9 @@ struct FeatureWeight {
 
 /// The features that vote for a detection as circles (radius: `circle_scales` times their scale), each with a
 /// line to the centre; the stronger the vote, the clearer the line.
-inline void draw_support(ImageView<Rgb> picture, const Detections& detections, const Detection& detection,
+inline void draw_support(ImageView<Rgb> image, const Detections& detections, const Detection& detection,
                          Rgb color, double circle_scales, int factor) {
-    const double pen = letter_size(picture.width());
+    const double pen = letter_size(image.width());
     const std::vector<FeatureWeight> weights = feature_weights(detections, detection);
     const double strongest = weights.empty() ? 1 : weights.back().weight;
     const Point2 centre = magnified(detection.centre, factor);
@@ -112,18 +112,18 @@ inline void draw_support(ImageView<Rgb> picture, const Detections& detections, c
             const Point2 at = magnified(Point2{feature.x, feature.y}, factor);
             const double opacity = 0.25 + 0.75 * f.weight / strongest;
             if (!circles) {
-                draw_line(picture, at, centre, {color, 0.6 * pen, opacity});
+                draw_line(image, at, centre, {color, 0.6 * pen, opacity});
             } else {
                 const double radius = std::max(2.0, circle_scales * double(feature.scale) * factor);
-                draw_circle(picture, at, radius, {mix(color, white, 0.6), 0.6 * pen, opacity});
-                fill_disc(picture, at, 0.9 * pen, white, opacity);
+                draw_circle(image, at, radius, {mix(color, white, 0.6), 0.6 * pen, opacity});
+                fill_disc(image, at, 0.9 * pen, white, opacity);
             }
         }
-    fill_disc(picture, centre, 3.5 * pen, black);
-    fill_disc(picture, centre, 2.5 * pen, mix(color, white, 0.3));
+    fill_disc(image, centre, 3.5 * pen, black);
+    fill_disc(image, centre, 2.5 * pen, mix(color, white, 0.3));
 }
 
-/// A map of a segmentation as colours over the whole picture; `top` is the brightest value.
+/// A map of a segmentation as colours over the whole image; `top` is the brightest value.
 template <std::invocable<double> Colors>
 [[nodiscard]] RgbImage map_panel(const Segmentation& part, const GrayImage& map, double top, int width,
                                  int height, int factor, const Colors& color_of) {

@@ -26,8 +26,8 @@ struct ReportTable {
     std::vector<std::vector<std::string>> rows = {};
 };
 
-/// @brief A picture with its PNG file's bytes.
-struct ReportPicture {
+/// @brief An image with its PNG file's bytes.
+struct ReportImage {
     std::string caption = {};
     std::vector<std::uint8_t> png = {};
 };
@@ -37,7 +37,7 @@ struct ReportPlot {
     std::string svg;
 };
 
-using ReportPart = std::variant<ReportText, ReportTable, ReportPicture, ReportPlot>;
+using ReportPart = std::variant<ReportText, ReportTable, ReportImage, ReportPlot>;
 
 /// @brief A part of a report under a heading.
 struct ReportSection {
@@ -81,7 +81,7 @@ namespace detail {
     return html + "</tbody></table></div>\n";
 }
 
-/// Width of a PNG file's picture over its height; 0 where the bytes are none.
+/// Width of a PNG file's image over its height; 0 where the bytes are none.
 [[nodiscard]] inline double png_aspect(const std::vector<std::uint8_t>& png) {
     if (png.size() < 24) return 0;
     const auto side = [&](std::size_t at) {
@@ -92,7 +92,7 @@ namespace detail {
     return side(20) > 0 ? side(16) / side(20) : 0;
 }
 
-[[nodiscard]] inline std::string to_html(const ReportPicture& part) {
+[[nodiscard]] inline std::string to_html(const ReportImage& part) {
     std::string html = png_aspect(part.png) > 2.5 ? "<figure class=\"row\">" : "<figure>";
     html += "<img loading=\"lazy\" alt=\"" + escape_markup(part.caption) + "\" src=\"data:image/png;base64," +
             base64(part.png) + "\">";
@@ -116,7 +116,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// @brief The report as one HTML page that needs no other file: pictures are inside it, there are no scripts.
+/// @brief The report as one HTML page that needs no other file: images are inside it, there are no scripts.
 [[nodiscard]] inline std::string to_html(const Report& report) {
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

@@ -18,9 +18,9 @@
 
 namespace ism {
 
-/// @brief How much a report says about one picture.
+/// @brief How much a report says about one image.
 struct DetectionReportOptions {
-    std::size_t rows = 5;     ///< detections with four pictures and reasons, the strongest first
+    std::size_t rows = 5;     ///< detections with four images and reasons, the strongest first
     std::size_t reasons = 6;  ///< words and features named for each
     OverlayOptions overlay = {.side_px = 360};
 };
@@ -92,10 +92,10 @@ struct DetectionReportOptions {
     return table;
 }
 
-/// @brief A section on one picture: all detections in it, then for the strongest ones the four pictures of
-/// overlay_row() and why they were found.
-/// @throws Error as overlay_all() and overlay_row() do.
-[[nodiscard]] inline ReportSection detection_section(std::string title, ImageView<const Rgb> picture,
+/// @brief A section on one image: all detections in it, then for the strongest ones the four images of
+/// draw_explanation() and why they were found.
+/// @throws Error as draw_detections() and draw_explanation() do.
+[[nodiscard]] inline ReportSection detection_section(std::string title, ImageView<const Rgb> image,
                                                      const Detections& detections,
                                                      std::span<const std::string> class_names,
                                                      const DetectionReportOptions& options = {}) {
@@ -105,12 +105,12 @@ struct DetectionReportOptions {
                                 : count == 1 ? "1 detection"
                                              : join_text(count, " detections");
     section.parts.push_back(
-        ReportPicture{caption, encode_png(overlay_all(picture, detections, class_names, options.overlay))});
+        ReportImage{caption, encode_png(draw_detections(image, detections, class_names, options.overlay))});
     for (std::size_t i = 0; i < shown; ++i) {
         const Detection& detection = detections.objects[i];
         ReportSection why{.title = detail::label_text(detection, class_names), .folded = i > 0};
-        why.parts.push_back(
-            ReportPicture{"", encode_png(overlay_row(picture, detections, i, class_names, options.overlay))});
+        why.parts.push_back(ReportImage{
+            "", encode_png(draw_explanation(image, detections, i, class_names, options.overlay))});
         why.parts.push_back(fact_table(detection));
         why.parts.push_back(word_table(detection, options.reasons));
         why.parts.push_back(feature_table(detections, detection, options.reasons));

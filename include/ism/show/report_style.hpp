@@ -6,7 +6,7 @@
 
 namespace ism::detail {
 
-/// How reports look (CSS): one light column, tables and rows of pictures scroll sideways on a phone.
+/// How reports look (CSS): one light column, tables and rows of images scroll sideways on a phone.
 inline constexpr std::string_view report_style = R"(
 :root { color-scheme: light; }
 body { font: 16px/1.5 system-ui, sans-serif; color: #24252b; background: #f4f4f7; margin: 0; }

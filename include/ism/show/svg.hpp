@@ -50,7 +50,7 @@ namespace detail {
     return ticks;
 }
 
-/// A position in a picture, to a hundredth of a pixel.
+/// A position in an image, to a hundredth of a pixel.
 [[nodiscard]] inline std::string svg_number(double value) {
     return number_text(std::round(std::clamp(value, -1e5, 1e5) * 100) / 100, 8);
 }

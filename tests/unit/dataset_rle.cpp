@@ -72,6 +72,19 @@ TEST_CASE("Run lengths go down the columns and begin with ground") {
     CHECK(mask == Mask(3, 2, std::vector<std::uint8_t>{0, 1, 0, 1, 0, 0}));
 }
 
+TEST_CASE("Every value but 0 is figure") {
+    CHECK(ism::encode_rle(Mask(3, 2, std::vector<std::uint8_t>{0, 255, 1, 2, 0, 1})).counts ==
+          std::vector<std::uint32_t>{1, 2, 1, 2});
+}
+
+TEST_CASE("A run may be as long as the largest mask") {
+    const Rle rle{16384, 8192, {134217728}};
+    CHECK(ism::decompress(ism::compress(rle)) == rle);
+    const Rle longer{16384, 8192, {134217729}};
+    CHECK(error_message([&] { (void)ism::decompress(ism::compress(longer)); }) ==
+          "packed run lengths: expected runs of 0 to 134217728, got 134217729");
+}
+
 TEST_CASE("Run lengths far apart survive packing") {
     const Rle rle{4096, 4096, {0, 16000000, 1, 3, 0, 0, 777212}};
     CHECK(ism::decompress(ism::compress(rle)) == rle);
@@ -112,6 +125,13 @@ TEST_CASE("Packed run lengths that are none are refused") {
               (void)ism::decompress({30, 30, std::string(20, 'o')});
           }) ==
           "packed run lengths: expected numbers in the characters '0' to 'o', got character 111 at place 8");
+    CHECK(
+        error_message([&] {
+            (void)ism::decompress({30, 30, good + "p"});
+        }) ==
+        ism::join_text("packed run lengths: expected numbers in the characters '0' to 'o', got character 112 "
+                       "at place ",
+                       good.size()));
     CHECK(error_message([&] {
               (void)ism::decompress({30, 30, "O"});
           }) == "packed run lengths: expected runs of 0 to 134217728, got -1");

@@ -61,6 +61,27 @@ TEST_CASE("Filled polygons agree with a test of each pixel's middle, crossing an
     }
 }
 
+TEST_CASE("A pixel whose middle lies on an edge belongs to what is right of it and below") {
+    // By hand: the edges run through the middles of rows and columns 2 and 4.
+    const Mask square = fill({{{2.5, 2.5}, {4.5, 2.5}, {4.5, 4.5}, {2.5, 4.5}}}, 8, 8);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) CHECK(int(square(x, y)) == int(x >= 2 && x < 4 && y >= 2 && y < 4));
+    // Corners and edges of squares and diamonds through middles of pixels: the same as for points moved a
+    // little to the right, and still less down. Sides of 2ⁿ halves leave no rounding.
+    ism::Random random(7);
+    for (int round = 0; round < 200; ++round) {
+        const auto half = [&](int end) { return 0.5 * double(random.index(std::uint64_t(2 * end))); };
+        const double x0 = half(16), y0 = half(16), r = 0.5 * double(1 << random.index(5));
+        const Polygon shape = round % 2 == 0
+                                  ? Polygon{{x0 - r, y0}, {x0, y0 - r}, {x0 + r, y0}, {x0, y0 + r}}
+                                  : Polygon{{x0, y0}, {x0 + r, y0}, {x0 + r, y0 + r}, {x0, y0 + r}};
+        const Mask mask = fill({shape}, 16, 16);
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x)
+                REQUIRE(int(mask(x, y)) == int(inside(shape, {x + 0.5 + 1e-4, y + 0.5 + 1e-7})));
+    }
+}
+
 TEST_CASE("Polygons that share an edge share no pixel and leave none out") {
     const Polygon left{{0, 0}, {3.5, 0}, {6.5, 8}, {0, 8}}, right{{3.5, 0}, {10, 0}, {10, 8}, {6.5, 8}};
     const Mask a = fill({left}, 10, 8), b = fill({right}, 10, 8);
@@ -79,6 +100,7 @@ TEST_CASE("Polygons that are none are refused") {
     CHECK(error_message([] {
               (void)fill({{{0, 0}, {1, 1}, {1, 1e300}}}, 4, 4);
           }) == "polygon corner: expected pixels up to 1e9, got 1, 1e+300");
+    CHECK(fill({{{-1e9, -1e9}, {1e9, -1e9}, {1e9, 1e9}, {-1e9, 1e9}}}, 4, 4) == Mask(4, 4, 1));
     CHECK(error_message([] { (void)fill({}, -4, 4); }) ==
           "mask size: expected 1 to 134217728 pixels, got -4x4");
 }

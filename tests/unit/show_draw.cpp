@@ -22,27 +22,27 @@ using ism::RgbImage;
 
 namespace {
 
-// how much ink is on a black picture, in white pixels
-double ink(const RgbImage& picture) {
+// how much ink is on a black image, in white pixels
+double ink(const RgbImage& image) {
     double sum = 0;
-    for (const Rgb c : picture.pixels()) sum += c.r / 255.0;
+    for (const Rgb c : image.pixels()) sum += c.r / 255.0;
     return sum;
 }
 
-std::size_t painted(const RgbImage& picture) {
+std::size_t painted(const RgbImage& image) {
     return std::size_t(
-        std::count_if(picture.pixels().begin(), picture.pixels().end(), [](Rgb c) { return c != Rgb{}; }));
+        std::count_if(image.pixels().begin(), image.pixels().end(), [](Rgb c) { return c != Rgb{}; }));
 }
 
 }  // namespace
 
 TEST_CASE("Lines and boxes along the pixels paint exactly these pixels") {
-    RgbImage picture(20, 10);
-    ism::draw_line(picture, {3, 4}, {8, 4}, {.color = ism::white});
-    for (int x = 3; x <= 8; ++x) CHECK(picture(x, 4) == ism::white);
-    CHECK(picture(10, 4) == Rgb{});
-    CHECK(picture(5, 3) == Rgb{});
-    CHECK(picture(5, 5) == Rgb{});
+    RgbImage image(20, 10);
+    ism::draw_line(image, {3, 4}, {8, 4}, {.color = ism::white});
+    for (int x = 3; x <= 8; ++x) CHECK(image(x, 4) == ism::white);
+    CHECK(image(10, 4) == Rgb{});
+    CHECK(image(5, 3) == Rgb{});
+    CHECK(image(5, 5) == Rgb{});
 
     RgbImage boxes(20, 10);
     ism::fill_box(boxes, {2, 3, 5, 4}, ism::white);
@@ -77,8 +77,8 @@ TEST_CASE("A line paints every pixel near it and no other, whatever its slope") 
         if (round % 6 == 1) b.x = a.x;
         if (round % 6 == 2) b = a;
         const double width = random.uniform(1, 6);
-        RgbImage picture(40, 40);
-        ism::draw_line(picture, a, b, {.color = ism::white, .width_px = width});
+        RgbImage image(40, 40);
+        ism::draw_line(image, a, b, {.color = ism::white, .width_px = width});
         for (int y = 0; y < 40; ++y)
             for (int x = 0; x < 40; ++x) {
                 double nearest = std::numeric_limits<double>::infinity();
@@ -86,12 +86,12 @@ TEST_CASE("A line paints every pixel near it and no other, whatever its slope") 
                     nearest = std::min(nearest, std::hypot(a.x + (b.x - a.x) * i / 1000 - x,
                                                            a.y + (b.y - a.y) * i / 1000 - y));
                 const double cover = std::clamp(0.5 + width / 2 - nearest, 0.0, 1.0);
-                REQUIRE(std::abs(picture(x, y).r / 255.0 - cover) < 0.06);
+                REQUIRE(std::abs(image(x, y).r / 255.0 - cover) < 0.06);
             }
     }
 }
 
-TEST_CASE("Nothing is drawn outside the picture, and nothing that is not finite") {
+TEST_CASE("Nothing is drawn outside the image, and nothing that is not finite") {
     const Rgb frame{1, 2, 3};
     RgbImage whole(60, 50, frame);
     const ism::ImageView<Rgb> part = whole.view().region(20, 15, 17, 13);
@@ -148,12 +148,12 @@ TEST_CASE("Every letter differs from every other and all but the blank have ink"
 TEST_CASE("Text is as wide as it says") {
     CHECK(ism::text_width("") == 0);
     CHECK(ism::text_width("HH", 3) == 33);
-    RgbImage picture(60, 40);
-    ism::draw_text(picture, 5, 4, "HH", ism::white, 3);
+    RgbImage image(60, 40);
+    ism::draw_text(image, 5, 4, "HH", ism::white, 3);
     int left = 60, right = -1, top = 40, bottom = -1;
     for (int y = 0; y < 40; ++y)
         for (int x = 0; x < 60; ++x)
-            if (picture(x, y) == ism::white)
+            if (image(x, y) == ism::white)
                 left = std::min(left, x), right = std::max(right, x), top = std::min(top, y),
                 bottom = std::max(bottom, y);
     CHECK(std::tuple(left, right, top, bottom) == std::tuple(5, 5 + 32, 4, 4 + 20));
@@ -193,14 +193,14 @@ TEST_CASE("Colour maps grow brighter with the value and class colours differ") {
 }
 
 TEST_CASE("Magnifying keeps what is even and the mean, and lies between its neighbours") {
-    RgbImage picture(3, 1);
-    picture(1, 0) = {90, 90, 90}, picture(2, 0) = {200, 0, 0};
-    CHECK(ism::magnified(picture, 1) == picture);
-    const RgbImage large = ism::magnified(picture, 3);
+    RgbImage image(3, 1);
+    image(1, 0) = {90, 90, 90}, image(2, 0) = {200, 0, 0};
+    CHECK(ism::magnified(image, 1) == image);
+    const RgbImage large = ism::magnified(image, 3);
     CHECK(large.width() == 9);
     CHECK(large.height() == 3);
-    CHECK(large(1, 1) == picture(0, 0));
-    CHECK(large(4, 1) == picture(1, 0));
+    CHECK(large(1, 1) == image(0, 0));
+    CHECK(large(4, 1) == image(1, 0));
     CHECK(large(2, 0) == Rgb{30, 30, 30});
-    CHECK_THROWS_AS(ism::magnified(picture, 0), ism::Error);
+    CHECK_THROWS_AS(ism::magnified(image, 0), ism::Error);
 }

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include "ism/model_file/model_file.hpp"
+
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -17,7 +19,6 @@
 #include "ism/feature/harris_laplace.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/model_file/model_file.hpp"
 
 using ism::FileError;
 using ism::test::error_message;

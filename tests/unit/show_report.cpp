@@ -168,7 +168,7 @@ TEST_CASE("A report is one well-formed page whose text cannot become markup") {
         .sections = {
             {.title = nasty,
              .parts = {ism::ReportText{nasty}, ism::ReportTable{nasty, {nasty, "b"}, {{nasty, "2"}, {}}},
-                       ism::ReportPicture{nasty, {'f', 'o', 'o'}}, ism::ReportPlot{ism::to_svg(ism::Plot{})}},
+                       ism::ReportImage{nasty, {'f', 'o', 'o'}}, ism::ReportPlot{ism::to_svg(ism::Plot{})}},
              .sections = {{.title = "inner", .parts = {ism::ReportText{"b"}}, .folded = true}}}}};
     const std::string html = ism::to_html(report);
     CHECK(markup_fault(html).empty());
@@ -180,7 +180,7 @@ TEST_CASE("A report is one well-formed page whose text cannot become markup") {
     CHECK(markup_fault(ism::to_html(ism::Report{})).empty());
 }
 
-TEST_CASE("The section on a picture tells why each detection was found") {
+TEST_CASE("The section on an image tells why each detection was found") {
     ism::Detections detections;
     detections.features = {{.x = 12, .y = 8, .scale = 2, .depth_m = 0.75f}, {.x = 20, .y = 9, .scale = 1}};
     ism::Detection object;

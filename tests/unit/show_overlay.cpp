@@ -16,12 +16,12 @@ namespace {
 const std::vector<std::string> names{"cup", "bowl"};
 constexpr ism::OverlayOptions plain{.side_px = 200, .close_up = false};
 
-// a 100×60 picture, a detection with 20×10 figure pixels at (40, 30) in maps of 30×20 that begin at (35, 25)
+// a 100×60 image, a detection with 20×10 figure pixels at (40, 30) in maps of 30×20 that begin at (35, 25)
 RgbImage some_picture() {
-    RgbImage picture(100, 60);
+    RgbImage image(100, 60);
     for (int y = 0; y < 60; ++y)
-        for (int x = 0; x < 100; ++x) picture(x, y) = {200, std::uint8_t(x), std::uint8_t(2 * y)};
-    return picture;
+        for (int x = 0; x < 100; ++x) image(x, y) = {200, std::uint8_t(x), std::uint8_t(2 * y)};
+    return image;
 }
 ism::Detections some_detections() {
     ism::Detections detections;
@@ -42,9 +42,9 @@ ism::Detections some_detections() {
 
 }  // namespace
 
-TEST_CASE("The four pictures show votes, both maps on one scale, and the figure untouched") {
-    const RgbImage picture = some_picture(), large = ism::magnified(picture, 2);
-    const RgbImage row = ism::overlay_row(picture, some_detections(), 0, names, plain);
+TEST_CASE("The four images show votes, both maps on one scale, and the figure untouched") {
+    const RgbImage image = some_picture(), large = ism::magnified(image, 2);
+    const RgbImage row = ism::draw_explanation(image, some_detections(), 0, names, plain);
     const int head = row.height() - 120, step = (row.width() - 200) / 3;
     REQUIRE(head > 7);
     REQUIRE(step >= 200);
@@ -58,13 +58,13 @@ TEST_CASE("The four pictures show votes, both maps on one scale, and the figure 
         for (int y = 33; y < 37; ++y) REQUIRE(panel(3, x, y) == large(2 * x, 2 * y));
     const Rgb around = panel(3, 10, 10);
     CHECK(around.r == around.g);
-    CHECK(ism::brightness(around) < ism::brightness(picture(10, 10)));
+    CHECK(ism::brightness(around) < ism::brightness(image(10, 10)));
     CHECK(panel(0, 5, 55) == ism::mix(large(10, 110), ism::black, 0.4));
     CHECK(panel(0, 40, 35) == ism::class_color(1));  // the box
-    CHECK(row == ism::overlay_row(picture, some_detections(), 0, names, plain));
+    CHECK(row == ism::draw_explanation(image, some_detections(), 0, names, plain));
 }
 
-TEST_CASE("A close-up shows the detection and its surroundings as the whole picture would") {
+TEST_CASE("A close-up shows the detection and its surroundings as the whole image would") {
     const ism::Detections detections = some_detections();
     const ism::Box part = ism::detail::surroundings(detections, detections.objects[0], 100, 60, 3);
     CHECK(part.x <= 35);
@@ -73,13 +73,13 @@ TEST_CASE("A close-up shows the detection and its surroundings as the whole pict
     CHECK(part.width < 100);
 
     RgbImage cut(int(part.width), int(part.height));
-    const RgbImage picture = some_picture();
+    const RgbImage image = some_picture();
     for (int y = 0; y < cut.height(); ++y)
-        for (int x = 0; x < cut.width(); ++x) cut(x, y) = picture(x + int(part.x), y + int(part.y));
+        for (int x = 0; x < cut.width(); ++x) cut(x, y) = image(x + int(part.x), y + int(part.y));
     const ism::Detections there =
         ism::detail::moved_to(detections, detections.objects[0], int(part.x), int(part.y));
-    CHECK(ism::overlay_row(picture, detections, 0, names, {.side_px = 200}) ==
-          ism::overlay_row(cut, there, 0, names, plain));
+    CHECK(ism::draw_explanation(image, detections, 0, names, {.side_px = 200}) ==
+          ism::draw_explanation(cut, there, 0, names, plain));
 
     ism::Detections outside = detections;
     outside.objects[0] = {};
@@ -87,28 +87,28 @@ TEST_CASE("A close-up shows the detection and its surroundings as the whole pict
     CHECK(ism::detail::surroundings(outside, outside.objects[0], 100, 60, 3) == ism::Box{0, 0, 100, 60});
 }
 
-TEST_CASE("All detections are marked in one picture, magnified so that labels can be read") {
-    const RgbImage picture = some_picture();
-    CHECK(ism::overlay_all(picture, {}, names, {.side_px = 640}) == ism::magnified(picture, 6));
-    CHECK(ism::overlay_all(picture, {}, names, {.side_px = 50}) == picture);
+TEST_CASE("All detections are marked in one image, magnified so that labels can be read") {
+    const RgbImage image = some_picture();
+    CHECK(ism::draw_detections(image, {}, names, {.side_px = 640}) == ism::magnified(image, 6));
+    CHECK(ism::draw_detections(image, {}, names, {.side_px = 50}) == image);
 
     ism::Detections detections = some_detections();
     detections.objects.push_back(detections.objects[0]);
     detections.objects[1].class_index = 0;
     detections.objects[1].segmentation = {};
     detections.objects[1].box = {90, 50, 30, 30};  // reaches outside
-    const RgbImage all = ism::overlay_all(picture, detections, names, plain);
+    const RgbImage all = ism::draw_detections(image, detections, names, plain);
     CHECK(all(2 * 42, 2 * 39 + 1) == ism::class_color(1));  // contour and box
-    CHECK(all(2 * 50, 2 * 35) == ism::mix(ism::magnified(picture, 2)(100, 70), ism::class_color(1), 0.35));
-    CHECK(all(10, 10) == ism::magnified(picture, 2)(10, 10));
+    CHECK(all(2 * 50, 2 * 35) == ism::mix(ism::magnified(image, 2)(100, 70), ism::class_color(1), 0.35));
+    CHECK(all(10, 10) == ism::magnified(image, 2)(10, 10));
 }
 
 TEST_CASE("Labels evade each other while there is room") {
-    RgbImage picture(400, 300);
+    RgbImage image(400, 300);
     std::vector<ism::Box> used;
     for (int i = 0; i < 4; ++i)
-        ism::detail::draw_label(picture, {100, 100, 80, 90}, "cup 0.5", {1, 2, 3}, used);
-    ism::detail::draw_label(picture, {-50, -20, 80, 90}, "cup 0.5", {1, 2, 3}, used);
+        ism::detail::draw_label(image, {100, 100, 80, 90}, "cup 0.5", {1, 2, 3}, used);
+    ism::detail::draw_label(image, {-50, -20, 80, 90}, "cup 0.5", {1, 2, 3}, used);
     REQUIRE(used.size() == 5);
     for (std::size_t a = 0; a < used.size(); ++a) {
         CHECK(ism::intersection(used[a], {0, 0, 400, 300}).area() == used[a].area());
@@ -116,28 +116,28 @@ TEST_CASE("Labels evade each other while there is room") {
     }
 }
 
-TEST_CASE("Detections without support or mask, at the edge or in the tiniest picture can be shown") {
+TEST_CASE("Detections without support or mask, at the edge or in the tiniest image can be shown") {
     ism::Detections bare;
     bare.objects.resize(1);
     bare.objects[0].centre = {-3, 2}, bare.objects[0].box = {-10, -10, 14, 300};
     for (const bool close_up : {false, true}) {
         const ism::OverlayOptions options{.side_px = 64, .close_up = close_up};
-        CHECK_FALSE(ism::overlay_row(some_picture(), bare, 0, names, options).empty());
-        CHECK_FALSE(ism::overlay_row(RgbImage(1, 1), bare, 0, names, options).empty());
-        CHECK_FALSE(ism::overlay_all(RgbImage(1, 1), bare, names, options).empty());
+        CHECK_FALSE(ism::draw_explanation(some_picture(), bare, 0, names, options).empty());
+        CHECK_FALSE(ism::draw_explanation(RgbImage(1, 1), bare, 0, names, options).empty());
+        CHECK_FALSE(ism::draw_detections(RgbImage(1, 1), bare, names, options).empty());
     }
 }
 
 TEST_CASE("Overlays refuse what does not belong together") {
-    const RgbImage picture = some_picture();
+    const RgbImage image = some_picture();
     ism::Detections detections = some_detections();
-    CHECK_THROWS_AS(ism::overlay_row(picture, detections, 1, names), ism::Error);
-    CHECK_THROWS_AS(ism::overlay_row(RgbImage{}, detections, 0, names), ism::Error);
-    CHECK_THROWS_AS(ism::overlay_all(picture, detections, std::span(names).first(1)), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 1, names), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(RgbImage{}, detections, 0, names), ism::Error);
+    CHECK_THROWS_AS(ism::draw_detections(image, detections, std::span(names).first(1)), ism::Error);
     detections.objects[0].support[0].feature = 2;
-    CHECK_THROWS_AS(ism::overlay_row(picture, detections, 0, names), ism::Error);
-    CHECK_THROWS_AS(ism::overlay_row(picture, detections, 0, names, plain), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, names), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, names, plain), ism::Error);
     detections = some_detections();
     detections.objects[0].segmentation.ground = ism::GrayImage(3, 3);
-    CHECK_THROWS_AS(ism::overlay_row(picture, detections, 0, names), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, names), ism::Error);
 }
