@@ -23,7 +23,7 @@ namespace ism {
     found.reserve(detections.size());
     for (const Detection& d : detections)
         found.push_back(
-            {.image = image, .class_index = std::uint32_t(d.class_index), .box = d.box, .score = d.score});
+            {.image = image, .class_index = d.class_index, .box = d.box, .score = d.score});
     return found;
 }
 
