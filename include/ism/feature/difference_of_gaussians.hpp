@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ism/feature/range.hpp"
 #include "ism/feature/row_detector.hpp"
 
 namespace ism {
@@ -36,11 +37,12 @@ struct DifferenceOfGaussians {
         visit("border", self.border);
     }
 
-    /// @throws Error where an option is out of range.
-    void check() const {
-        expect(contrast_threshold >= 0, "contrast_threshold", "0 or more", contrast_threshold);
-        expect(edge_ratio >= 1, "edge_ratio", "1 or more", edge_ratio);
-        expect(border >= 1, "border (pixels)", "1 or more", border);
+    /// @brief Validates the options.
+    /// @throws Error where one is out of range.
+    friend void check(const DifferenceOfGaussians& options) {
+        detail::expect_range("contrast_threshold", options.contrast_threshold, 0.0f, detail::max_threshold);
+        detail::expect_range("edge_ratio", options.edge_ratio, 1.0f, 1e9f);
+        detail::expect_range("border (pixels)", options.border, 1, detail::max_border);
     }
 
     /// @throws Error where an option is out of range.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -39,11 +38,11 @@ public:
     /// and scales are in pixels of `image` whatever it was resized by. The same for any number of threads.
     /// With a region only features whose centre lies in it; those of scales up to 8 pixels are the same as
     /// without.
-    /// @throws Error where the image, resized or not, or the region is smaller than 16×16, a pixel is not
-    /// finite or an option is out of range.
+    /// @throws Error where the image, resized or not, or the region is smaller than 16×16, a pixel is not a
+    /// number or beyond ±max_brightness, or an option is out of range.
     const FeatureSet<Desc>& extract(ImageView<const float> image, std::optional<Region> region = {}) {
         check_size(image);
-        each_row(image.height(), [&](int y) { check_finite(image, y); });
+        check_brightness(image, workspace_);
         return part(image, region);
     }
 
@@ -51,7 +50,7 @@ public:
     const FeatureSet<Desc>& extract(ImageView<const std::uint8_t> image, std::optional<Region> region = {}) {
         check_size(image);
         GrayImage gray = workspace_.image(image.width(), image.height());
-        each_row(image.height(), [&](int y) {
+        workspace_.each_row(image.height(), [&](int y) {
             const std::uint8_t* from = image.row(y).data();
             float* to = gray.row(y).data();
             for (int x = 0; x < image.width(); ++x) to[x] = float(from[x]) / 255.0f;
@@ -69,30 +68,8 @@ public:
 private:
     template <class T>
     void check_size(ImageView<const T> image) const {
-        const double factor = extractor_.options.upsampling;
-        expect(std::isfinite(factor) && factor > 0, "upsampling", "a positive number", factor);
+        check(extractor_);
         expect(image.width() >= 16 && image.height() >= 16, "image size", "at least 16x16", size_text(image));
-    }
-
-    static void check_finite(ImageView<const float> image, int y) {
-        int wrong = 0;
-        for (const float value : image.row(y)) wrong |= int(!(std::fabs(value) <= FLT_MAX));
-        if (wrong == 0) return;
-        for (int x = 0; x < image.width(); ++x)
-            if (!std::isfinite(image(x, y)))
-                throw Error(join_text("image brightness at (", x, ", ", y, "): expected a finite value, got ",
-                                      image(x, y)));
-    }
-
-    template <std::invocable<int> Body>
-    void each_row(int rows, const Body& body) {
-        constexpr int rows_per_task = 32;
-        workspace_.pool().for_each(std::size_t(rows + rows_per_task - 1) / rows_per_task,
-                                   [&](std::size_t task, unsigned) {
-                                       const int first = int(task) * rows_per_task;
-                                       for (int y = first; y < std::min(rows, first + rows_per_task); ++y)
-                                           body(y);
-                                   });
     }
 
     /// The features of a region, or of the whole image.
@@ -118,7 +95,8 @@ private:
         GrayImage other = resized(image, options.upsampling, scale_space.input_sigma, workspace_);
         expect(other.width() >= 16 && other.height() >= 16, "image size after upsampling", "at least 16x16",
                size_text(other));
-        scale_space.input_sigma *= float(std::max(1.0, options.upsampling));
+        scale_space.input_sigma =
+            std::min(max_input_sigma, scale_space.input_sigma * float(std::max(1.0, options.upsampling)));
         std::vector<Feature> found = detect(other, scale_space);
         workspace_.reuse(std::move(other));
         return found;
@@ -128,7 +106,7 @@ private:
                                               const ScaleSpaceOptions& options) {
         const D& detector = extractor_.detector;
         if constexpr (RowDetector<D>) {
-            detector.check();
+            check(detector);
             const auto found = workspace_.lists(workspace_.pool().size());
             space_.build(image, options, workspace_, D::search_reach,
                          [&](int octave, int first, int end, unsigned worker) {

@@ -41,13 +41,17 @@ struct HarrisLaplace {
         visit("border", self.border);
     }
 
+    /// @brief Validates the options.
+    /// @throws Error where one is out of range.
+    friend void check(const HarrisLaplace& options) {
+        detail::expect_range("Harris threshold", options.threshold, 0.0f, detail::max_threshold);
+        detail::expect_range("Harris alpha", options.alpha, 0.0f, 0.25f);
+        detail::check_scale_selection(options.least_laplacian, options.scale_tolerance, options.border);
+    }
+
     /// @throws Error where an option is out of range.
     [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, Workspace& workspace) const {
-        expect(threshold >= 0, "Harris threshold", "0 or more", threshold);
-        expect(alpha >= 0 && alpha < 0.25f, "Harris alpha", "0 to 0.25", alpha);
-        expect(scale_tolerance > 0 && scale_tolerance <= 1, "scale_tolerance (octaves)", "above 0, up to 1",
-               scale_tolerance);
-        expect(border >= 0, "border (pixels)", "0 or more", border);
+        check(*this);
         const float offset = 0.5f * float(space.levels_per_octave());
         std::array<std::span<const float>, 32> kernels;  // one a level, of the integration scale
         for (int level = 0; level < space.levels_per_octave(); ++level)

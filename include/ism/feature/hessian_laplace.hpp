@@ -34,12 +34,16 @@ struct HessianLaplace {
         visit("border", self.border);
     }
 
+    /// @brief Validates the options.
+    /// @throws Error where one is out of range.
+    friend void check(const HessianLaplace& options) {
+        detail::expect_range("Hessian threshold", options.threshold, 0.0f, detail::max_threshold);
+        detail::check_scale_selection(options.least_laplacian, options.scale_tolerance, options.border);
+    }
+
     /// @throws Error where an option is out of range.
     [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, Workspace& workspace) const {
-        expect(threshold >= 0, "Hessian threshold", "0 or more", threshold);
-        expect(scale_tolerance > 0 && scale_tolerance <= 1, "scale_tolerance (octaves)", "above 0, up to 1",
-               scale_tolerance);
-        expect(border >= 0, "border (pixels)", "0 or more", border);
+        check(*this);
         const auto respond = [&](int octave, int level, int first, int end, ImageView<float> out,
                                  std::span<float>) {
             const ImageView<const float> image = space.level(octave, level);

@@ -14,6 +14,7 @@
 
 #include "ism/feature/feature.hpp"
 #include "ism/feature/local_maxima.hpp"
+#include "ism/feature/range.hpp"
 #include "ism/feature/scale_space.hpp"
 #include "ism/feature/workspace.hpp"
 
@@ -21,11 +22,12 @@ namespace ism::detail {
 
 /// Normalised Laplacian σ²·(Lxx + Lyy) at (x, y), pixels of the octave, half a level above `layer`: as the
 /// heat equation has it, the difference of the two levels over the logarithm of their ratio. Between the
-/// pixels a quadratic. Layers beyond the octave are taken from the neighbouring one; NaN where there is none.
+/// pixels a quadratic. Layers beyond the octave are taken from the one that has them; NaN where there is
+/// none.
 [[nodiscard]] inline float laplacian(const ScaleSpace& space, int octave, int layer, float x, float y) {
     const int levels_an_octave = space.levels_per_octave();
-    if (layer < 0) octave -= 1, layer += levels_an_octave, x *= 2, y *= 2;
-    if (layer + 1 >= space.levels()) octave += 1, layer -= levels_an_octave, x /= 2, y /= 2;
+    for (; layer < 0; --octave) layer += levels_an_octave, x *= 2, y *= 2;
+    for (; layer + 1 >= space.levels(); ++octave) layer -= levels_an_octave, x /= 2, y /= 2;
     if (octave < 0 || octave >= space.octaves()) return std::numeric_limits<float>::quiet_NaN();
     const ImageView<const float> fine = space.level(octave, layer), coarse = space.level(octave, layer + 1);
     const int cx = std::clamp(int(std::lround(x)), 1, fine.width() - 2);
@@ -87,6 +89,13 @@ inline void keep_maxima(const ScaleSpace& space, const ScaleSelection& selection
             found.push_back(
                 {.x = px * step, .y = py * step, .scale = space.sigma(octave, *at), .strength = top.value});
         }
+}
+
+/// Validates what the options of Harris- and Hessian-Laplace have in common.
+inline void check_scale_selection(float least_laplacian, float scale_tolerance, int border) {
+    expect_range("least_laplacian", least_laplacian, 0.0f, max_threshold);
+    expect_range("scale_tolerance (octaves)", scale_tolerance, 0.01f, 1.0f);
+    expect_range("border (pixels)", border, 0, max_border);
 }
 
 inline constexpr int band_rows = 32;

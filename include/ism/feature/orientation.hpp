@@ -13,6 +13,7 @@
 
 #include "ism/feature/gradient.hpp"
 #include "ism/feature/local_maxima.hpp"
+#include "ism/feature/range.hpp"
 #include "ism/feature/scale_space.hpp"
 #include "ism/feature/workspace.hpp"
 
@@ -25,6 +26,14 @@ struct OrientationOptions {
     int max_peaks = 4;        ///< at most so many directions a feature
 };
 
+/// @brief Validates `options`.
+/// @throws Error where one is out of range.
+inline void check(const OrientationOptions& options) {
+    detail::expect_range("orientation window (scales)", options.window, 0.1f, 16.0f);
+    detail::expect_range("orientation peak_ratio", options.peak_ratio, 0.01f, 1.0f);
+    detail::expect_range("orientation max_peaks", options.max_peaks, 1, 18);
+}
+
 namespace detail {
 
 inline constexpr std::size_t direction_bins = 36;
@@ -36,8 +45,8 @@ using DirectionHistogram = std::array<float, direction_bins>;
                                                             float sigma, float window) {
     constexpr float per_radian = direction_bins / (2 * std::numbers::pi_v<float>);
     const float deviation = window * sigma, reach = 3 * deviation;
-    const int y0 = int(std::max(1.0f, std::ceil(y - reach)));
-    const int y1 = int(std::min(float(image.height() - 2), std::floor(y + reach)));
+    const int y0 = int(std::min(float(image.height()), std::max(1.0f, std::ceil(y - reach))));
+    const int y1 = int(std::max(0.0f, std::min(std::floor(y + reach), float(image.height() - 2))));
     // from −π to π, and two bins more for what comes after π
     std::array<float, direction_bins + 2> histogram{};
     GradientBatch batch;
@@ -62,8 +71,9 @@ using DirectionHistogram = std::array<float, direction_bins>;
     };
     for (int row = y0; row <= y1; ++row) {
         const float dy = float(row) - y, half = std::sqrt(std::max(0.0f, reach * reach - dy * dy));
-        const int x1 = int(std::min(float(image.width() - 2), std::floor(x + half)));
-        for (int first = int(std::max(1.0f, std::ceil(x - half))); first <= x1;) {
+        const int x1 = int(std::max(0.0f, std::min(std::floor(x + half), float(image.width() - 2))));
+        const float x0 = std::min(float(image.width()), std::max(1.0f, std::ceil(x - half)));
+        for (int first = int(x0); first <= x1;) {
             const std::size_t count =
                 std::min(std::size_t(x1 - first + 1), GradientBatch::capacity - batch.count);
             batch.add_row(image, first, row, count, x, y);
@@ -124,10 +134,7 @@ struct Directions {
                                                               std::span<const Feature> features,
                                                               Workspace& workspace,
                                                               const OrientationOptions& options = {}) {
-    expect(options.window > 0, "orientation window (scales)", "a positive number", options.window);
-    expect(options.peak_ratio > 0 && options.peak_ratio <= 1, "orientation peak_ratio", "above 0, up to 1",
-           options.peak_ratio);
-    expect(options.max_peaks >= 1, "orientation max_peaks", "1 or more", options.max_peaks);
+    check(options);
     constexpr std::size_t features_per_task = 64;
     const auto parts = workspace.lists((features.size() + features_per_task - 1) / features_per_task);
     workspace.pool().for_each(parts.size(), [&](std::size_t task, unsigned) {

@@ -18,7 +18,7 @@ namespace ism {
 template <class D>
 concept RowDetector = Detector<D> &&
     requires(const D& detector, const ScaleSpace& space, Workspace& workspace, std::vector<Feature>& found) {
-    detector.check();
+    check(detector);
     { D::search_reach } -> std::convertible_to<int>;
     { detector.search(space, int(), int(), int(), workspace, unsigned(), found) } -> std::same_as<void>;
 };
@@ -29,7 +29,7 @@ template <RowDetector D>
 [[nodiscard]] std::vector<Feature> search_all_rows(const D& detector, const ScaleSpace& space,
                                                    Workspace& workspace) {
     constexpr int rows_per_task = 32;
-    detector.check();
+    check(detector);
     const auto tasks_of = [&](int octave) {
         return std::size_t((space.level(octave, 0).height() + rows_per_task - 1) / rows_per_task);
     };

@@ -13,20 +13,12 @@
 #include "ism/core/aligned.hpp"
 #include "ism/core/image.hpp"
 #include "ism/feature/blur.hpp"
+#include "ism/feature/brightness.hpp"
 #include "ism/feature/row_sweep.hpp"
+#include "ism/feature/scale_space_options.hpp"
 #include "ism/feature/workspace.hpp"
 
 namespace ism {
-
-/// @brief How a scale space is laid out. Deviations are in pixels.
-struct ScaleSpaceOptions {
-    int levels_per_octave = 3;        ///< S ≥ 1
-    float base_sigma = 1.6f;          ///< of an octave's first level, in pixels of that level
-    float input_sigma = 0.5f;         ///< blur the image comes with, in its pixels
-    bool double_first_octave = true;  ///< begin with the image at twice its size
-    int max_octaves = 16;             ///< at most so many
-    int smallest_side = 8;            ///< no octave's shorter side, in its pixels, is below this
-};
 
 /// @brief Where a level lies in a scale space.
 struct LevelIndex {
@@ -43,18 +35,19 @@ public:
     /// @brief Fills the scale space from `image` (brightness, at least 16×16), reusing its memory. The result
     /// is the same for any workspace.
     /// Where the image is blurrier than the first level should be, it is taken as it is.
-    /// @throws Error where the image is smaller or an option out of range.
+    /// @throws Error where the image is smaller, a pixel is not finite or an option out of range.
     void build(ImageView<const float> image, const ScaleSpaceOptions& options, Workspace& workspace) {
+        check_brightness(image, workspace);
         build(image, options, workspace, 0, [](int, int, int, unsigned) {});
     }
 
-    /// @brief The same, and calls `watch(octave, first, end, worker)` for rows of the octave, on many
-    /// threads, as soon as all levels have them and `reach` rows above and below: while they are in the
-    /// cache.
+    /// @brief The same for pixels that are checked already, and calls `watch(octave, first, end, worker)` for
+    /// rows of the octave, on many threads, as soon as all levels have them and `reach` rows above and below:
+    /// while they are in the cache.
     template <std::invocable<int, int, int, unsigned> Watch>
     void build(ImageView<const float> image, const ScaleSpaceOptions& options, Workspace& workspace,
                int reach, const Watch& watch) {
-        check(image, options);
+        check_size(image), check(options);
         options_ = options;
         lay_out(image.width(), image.height());
         // stages: the doubled image, the levels, the watch
@@ -162,16 +155,11 @@ private:
         }
     };
 
-    static void check(ImageView<const float> image, const ScaleSpaceOptions& options) {
+    static void check_size(ImageView<const float> image) {
+        constexpr int longest = 1 << 16;
         expect(image.width() >= 16 && image.height() >= 16, "image size", "at least 16x16", size_text(image));
-        expect(options.levels_per_octave >= 1 && options.levels_per_octave <= 32, "levels_per_octave",
-               "1 to 32", options.levels_per_octave);
-        expect(options.base_sigma >= 0.5f && options.base_sigma <= 16, "base_sigma (pixels)", "0.5 to 16",
-               options.base_sigma);
-        expect(std::isfinite(options.input_sigma) && options.input_sigma >= 0, "input_sigma (pixels)",
-               "0 or more", options.input_sigma);
-        expect(options.max_octaves >= 1, "max_octaves", "1 or more", options.max_octaves);
-        expect(options.smallest_side >= 2, "smallest_side (pixels)", "2 or more", options.smallest_side);
+        expect(image.width() <= longest && image.height() <= longest, "image size", "at most 65536x65536",
+               size_text(image));
     }
 
     void lay_out(int width, int height) {

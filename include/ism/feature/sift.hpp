@@ -39,8 +39,8 @@ public:
           turn_(std::remainder(angle, 2 * std::numbers::pi_v<float>) * per_radian) {}
 
     void histogram(std::span<float, sift_size> out) {
-        const int y1 = last_at(y_, image_.height());
-        for (int y = first_at(y_); y <= y1; ++y) add_row(y);
+        const int y1 = last_at(y_, reach_, image_.height());
+        for (int y = first_at(y_, -reach_, image_.height()); y <= y1; ++y) add_row(y);
         share_out();
         for (int v = 0; v < sift_cells; ++v)
             for (int u = 0; u < sift_cells; ++u) {
@@ -57,12 +57,13 @@ private:
     static constexpr float per_radian = sift_angles / (2 * std::numbers::pi_v<float>);
     static constexpr float middle = (sift_cells + 1) * 0.5f;
 
-    /// The first and last pixel in reach along one axis, of those with a gradient.
-    [[nodiscard]] int first_at(float centre) const {
-        return int(std::clamp(std::ceil(centre - reach_), 1.0f, 1e6f));
+    /// The first and last pixel from centre + low to centre + high along one axis, of those with a gradient;
+    /// none where these are not numbers.
+    [[nodiscard]] static int first_at(float centre, float low, int side) {
+        return int(std::min(float(side), std::max(1.0f, std::ceil(centre + low))));
     }
-    [[nodiscard]] int last_at(float centre, int side) const {
-        return int(std::clamp(std::floor(centre + reach_), 0.0f, float(side - 2)));
+    [[nodiscard]] static int last_at(float centre, float high, int side) {
+        return int(std::max(0.0f, std::min(std::floor(centre + high), float(side - 2))));
     }
 
     /// Where on a row a coordinate start + slope · dx of the window lies within it.
@@ -81,8 +82,8 @@ private:
         float low = -reach_, high = reach_;
         narrow(sine_ * dy + middle, cosine_, low, high);
         narrow(cosine_ * dy + middle, -sine_, low, high);
-        const int last = std::min(last_at(x_, image_.width()), int(std::floor(x_ + high)));
-        for (int x = std::max(first_at(x_), int(std::ceil(x_ + low))); x <= last;) {
+        const int last = last_at(x_, high, image_.width());
+        for (int x = first_at(x_, low, image_.width()); x <= last;) {
             const std::size_t count =
                 std::min(std::size_t(last - x + 1), GradientBatch::capacity - batch_.count);
             batch_.add_row(image_, x, row, count, x_, y_);
@@ -103,13 +104,13 @@ private:
             // cells from −1 (half a cell before the first) to 4; +1 for the padding. Rounding may leave a
             // place a hair outside, and what it gives a hair below 0.
             const float u = across + middle, v = along + middle;
-            const int iu = std::min(std::max(int(u), 0), sift_cells);
-            const int iv = std::min(std::max(int(v), 0), sift_cells);
+            const int iu = std::min(int(std::max(0.0f, u)), sift_cells);
+            const int iv = std::min(int(std::max(0.0f, v)), sift_cells);
             float bin = batch_.angle[k] * per_radian - turn_;
             bin += bin < 0 ? float(sift_angles) : 0.0f;
             bin += bin < 0 ? float(sift_angles) : 0.0f;
             bin -= bin >= sift_angles ? float(sift_angles) : 0.0f;
-            const int ib = std::min(int(bin), sift_angles - 1);
+            const int ib = std::min(int(std::max(0.0f, bin)), sift_angles - 1);
             const float au = u - float(iu), av = v - float(iv), ab = bin - float(ib);
             const float upper = value * (1 - av), lower = value * av;
             const float ul = upper * (1 - au), ur = upper * au, ll = lower * (1 - au), lr = lower * au;

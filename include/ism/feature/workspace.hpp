@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,6 +26,17 @@ public:
     explicit Workspace(unsigned threads = 1) : pool_(threads), rows_(pool_.size()) {}
 
     [[nodiscard]] ThreadPool& pool() { return pool_; }
+
+    /// @brief Calls body(y) for y = 0 … rows − 1, on all threads.
+    template <std::invocable<int> Body>
+    void each_row(int rows, const Body& body) {
+        constexpr int rows_per_task = 32;
+        pool_.for_each(std::size_t(rows + rows_per_task - 1) / rows_per_task,
+                       [&](std::size_t task, unsigned) {
+                           const int first = int(task) * rows_per_task;
+                           for (int y = first; y < std::min(rows, first + rows_per_task); ++y) body(y);
+                       });
+    }
 
     /// @brief `count` numbers for one worker of the pool, until it asks again; their values are open. The
     /// first lies at the start of a cache line.
