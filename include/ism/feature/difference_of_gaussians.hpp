@@ -50,10 +50,12 @@ struct DifferenceOfGaussians {
         return search_all_rows(*this, space, workspace);
     }
 
-    /// @brief How many rows above and below the rows searched are looked at.
-    static constexpr int search_reach = 6;
-
-    /// @brief Appends what lies in the rows first … end − 1 of an octave, as detect() does.
+    /// @brief See RowDetector.
+    [[nodiscard]] SearchReach prepare(const ScaleSpace& /*space*/, const Workspace& /*workspace*/) const {
+        check(*this);
+        return {.rows = search_reach};
+    }
+    /// @brief See RowDetector.
     void search(const ScaleSpace& space, int octave, int first, int end, Workspace& workspace,
                 unsigned worker, std::vector<Feature>& found) const {
         const ImageView<const float> level = space.level(octave, 0);
@@ -64,8 +66,12 @@ struct DifferenceOfGaussians {
         search_rows(space, octave, first, end, workspace.rows(worker, size), found);
     }
 
+    /// @brief See RowDetector.
+    void finish(std::vector<Feature>& /*features*/, const Workspace& /*workspace*/) const {}
+
 private:
     static constexpr int marks_at_once = 64;
+    static constexpr int search_reach = 6;  // rows that the refinement may move to, and their neighbours
 
     /// The differences d(layer) = level(layer + 1) − level(layer) of three rows, which roll over the octave.
     struct Window {

@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "ism/feature/for_each_feature.hpp"
 #include "ism/feature/gradient.hpp"
 #include "ism/feature/local_maxima.hpp"
 #include "ism/feature/range.hpp"
@@ -130,30 +133,34 @@ struct Directions {
 /// several are almost as strong the feature is repeated, one after the other, strongest first. A feature
 /// without any gradient around it stays upright.
 /// @throws Error where an option is out of range.
-[[nodiscard]] inline std::vector<Feature> assign_orientations(const ScaleSpace& space,
+[[nodiscard]] inline std::vector<Feature> assign_orientations(ScaleSpace& space,
                                                               std::span<const Feature> features,
                                                               Workspace& workspace,
                                                               const OrientationOptions& options = {}) {
     check(options);
-    constexpr std::size_t features_per_task = 64;
-    const auto parts = workspace.lists((features.size() + features_per_task - 1) / features_per_task);
-    workspace.pool().for_each(parts.size(), [&](std::size_t task, unsigned) {
-        const std::size_t first = task * features_per_task;
-        for (const Feature& f :
-             features.subspan(first, std::min(features_per_task, features.size() - first))) {
+    const auto most = std::size_t(options.max_peaks);
+    const auto counts = workspace.numbers(Scratch::directions, features.size());
+    const auto angles = workspace.numbers(Scratch::angles, features.size() * most);
+    detail::for_each_feature(
+        space, features, 3 * options.window, [](const Feature& f) { return f.scale; }, workspace,
+        [&](std::size_t i) {
+            const Feature& f = features[i];
             const auto [image, step] = space.sampling(f.scale);
             const detail::Directions directions = detail::dominant_directions(
                 detail::direction_histogram(image, f.x / step, f.y / step, f.scale / step, options.window),
                 options);
-            if (directions.count == 0) parts[task].push_back(f);
-            for (std::size_t i = 0; i < directions.count; ++i) {
-                parts[task].push_back(f);
-                parts[task].back().angle = directions.angle[i];
-            }
-        }
-    });
+            counts[i] = std::uint32_t(directions.count);
+            for (std::size_t k = 0; k < directions.count; ++k)
+                angles[i * most + k] = std::bit_cast<std::uint32_t>(directions.angle[k]);
+        });
     std::vector<Feature> oriented = workspace.empty_list();
-    for (const auto& part : parts) oriented.insert(oriented.end(), part.begin(), part.end());
+    for (std::size_t i = 0; i < features.size(); ++i) {
+        if (counts[i] == 0) oriented.push_back(features[i]);
+        for (std::size_t k = 0; k < counts[i]; ++k) {
+            oriented.push_back(features[i]);
+            oriented.back().angle = std::bit_cast<float>(angles[i * most + k]);
+        }
+    }
     return oriented;
 }
 

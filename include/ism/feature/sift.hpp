@@ -104,13 +104,13 @@ private:
             // cells from −1 (half a cell before the first) to 4; +1 for the padding. Rounding may leave a
             // place a hair outside, and what it gives a hair below 0.
             const float u = across + middle, v = along + middle;
-            const int iu = std::min(int(std::max(0.0f, u)), sift_cells);
-            const int iv = std::min(int(std::max(0.0f, v)), sift_cells);
+            const int iu = std::min(std::max(int(u), 0), sift_cells);
+            const int iv = std::min(std::max(int(v), 0), sift_cells);
             float bin = batch_.angle[k] * per_radian - turn_;
             bin += bin < 0 ? float(sift_angles) : 0.0f;
             bin += bin < 0 ? float(sift_angles) : 0.0f;
             bin -= bin >= sift_angles ? float(sift_angles) : 0.0f;
-            const int ib = std::min(int(std::max(0.0f, bin)), sift_angles - 1);
+            const int ib = std::min(int(bin), sift_angles - 1);
             const float au = u - float(iu), av = v - float(iv), ab = bin - float(ib);
             const float upper = value * (1 - av), lower = value * av;
             const float ul = upper * (1 - au), ur = upper * au, ll = lower * (1 - au), lr = lower * au;
@@ -167,10 +167,13 @@ struct Sift {
     static constexpr std::size_t dimension = detail::sift_size;
     static constexpr std::string_view name = "sift";
     static constexpr float support_radius = detail::sift_cell * detail::sift_cells / 2;
+    static constexpr float reach = 10.7f;  ///< half the diagonal of 5×5 cells, scales
     static constexpr double sq_length = 1;
 
+    [[nodiscard]] static float level_scale(const Feature& f) { return f.scale; }
+
     void describe(const ScaleSpace& space, const Feature& f, std::span<float, dimension> out) const {
-        const auto [image, step] = space.sampling(f.scale);
+        const auto [image, step] = space.sampling(level_scale(f));
         detail::SiftWindow(image, f.x / step, f.y / step, f.scale / step, f.angle).histogram(out);
         detail::normalise_sift(out);
     }
@@ -182,8 +185,10 @@ struct RootSift {
     using Scalar = float;
     static constexpr std::size_t dimension = Sift::dimension;
     static constexpr std::string_view name = "root-sift";
-    static constexpr float support_radius = Sift::support_radius;
+    static constexpr float support_radius = Sift::support_radius, reach = Sift::reach;
     static constexpr double sq_length = 1;
+
+    [[nodiscard]] static float level_scale(const Feature& f) { return Sift::level_scale(f); }
 
     void describe(const ScaleSpace& space, const Feature& f, std::span<float, dimension> out) const {
         Sift{}.describe(space, f, out);

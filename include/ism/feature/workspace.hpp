@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,20 @@
 
 namespace ism {
 
+/// @brief What the scratch buffers of a Workspace are for: numbers of features, one a feature.
+enum class Scratch : std::uint8_t {
+    order,        ///< features in another order
+    place,        ///< where a feature is in such an order
+    by_strength,  ///< features from strong to weak
+    dropped,      ///< whether a feature is left out
+    cell,         ///< of the image, in which a feature lies
+    turn,         ///< of a feature among those of its cell
+    octave,       ///< in which a feature's surroundings lie
+    directions,   ///< how many directions a feature has
+    angles,       ///< bits of these directions, several a feature
+    count         ///< how many there are of these
+};
+
 /// @brief The threads and the memory that features are found with, lent from frame to frame: after the first
 /// frame of a size nothing is allocated any more. For one frame at a time.
 class Workspace {
@@ -26,6 +41,8 @@ public:
     explicit Workspace(unsigned threads = 1) : pool_(threads), rows_(pool_.size()) {}
 
     [[nodiscard]] ThreadPool& pool() { return pool_; }
+    /// @brief Threads of the pool, the caller's among them.
+    [[nodiscard]] std::size_t threads() const { return pool_.size(); }
 
     /// @brief Calls body(y) for y = 0 … rows − 1, on all threads.
     template <std::invocable<int> Body>
@@ -53,11 +70,11 @@ public:
         return {lists_.data(), count};
     }
 
-    /// @brief `count` numbers of the which-th kind, until somebody asks for that kind again; values open.
-    [[nodiscard]] std::span<std::uint32_t> numbers(std::size_t which, std::size_t count) {
-        if (numbers_.size() <= which) numbers_.resize(which + 1);
-        if (numbers_[which].size() < count) numbers_[which].resize(count);
-        return {numbers_[which].data(), count};
+    /// @brief Scratch buffer `use` with `count` numbers, uninitialised, until somebody asks for it again.
+    [[nodiscard]] std::span<std::uint32_t> numbers(Scratch use, std::size_t count) {
+        std::vector<std::uint32_t>& own = numbers_[std::size_t(use)];
+        if (own.size() < count) own.resize(count);
+        return {own.data(), count};
     }
 
     /// @brief gaussian_kernel(sigma), kept from the first time on.
@@ -102,7 +119,7 @@ private:
     ThreadPool pool_;
     std::vector<AlignedVector<float>> rows_;
     std::vector<std::vector<Feature>> lists_, spare_;
-    std::vector<std::vector<std::uint32_t>> numbers_;
+    std::array<std::vector<std::uint32_t>, std::size_t(Scratch::count)> numbers_;
     std::vector<GrayImage> images_;
     std::vector<std::pair<double, std::vector<float>>> kernels_;
 };
