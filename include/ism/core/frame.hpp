@@ -10,8 +10,8 @@
 
 namespace ism {
 
-/// @brief What one shot of a camera gives: brightness, and where there are these, the same in colour, the
-/// registered depth in metres (both of the size of `gray`; empty = none) and the camera.
+/// @brief One image of a camera: brightness and, optionally, colour, registered depth in metres (both of the
+/// size of `gray`; empty = none) and the camera itself.
 struct Frame {
     GrayImage gray;
     RgbImage color = {};

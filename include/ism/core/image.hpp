@@ -21,11 +21,11 @@ struct Rgb {
     [[nodiscard]] constexpr bool operator==(const Rgb&) const = default;
 };
 
-/// @brief What an image may hold: plain values that can be copied byte by byte.
+/// @brief Pixel types: plain values that can be copied byte by byte.
 template <class T>
 concept Pixel = std::is_trivially_copyable_v<T> && std::is_default_constructible_v<T>;
 
-/// @brief A rectangle of pixels that somebody else owns. Rows lie `stride` pixels apart.
+/// @brief A non-owning rectangle of pixels. Rows lie `stride` pixels apart.
 /// Pixel (x, y) has its centre at the coordinates (x, y); x runs right, y down.
 template <class T>
 requires Pixel<std::remove_const_t<T>>
@@ -37,7 +37,7 @@ public:
     constexpr ImageView(T* data, int width, int height, std::ptrdiff_t stride)
         : data_(data), width_(width), height_(height), stride_(stride) {}
 
-    /// @brief A view that may change its pixels is also one that may not.
+    /// @brief A mutable view converts to a read-only one.
     constexpr operator ImageView<const T>() const requires(!std::is_const_v<T>) {
         return {data_, width_, height_, stride_};
     }
@@ -179,8 +179,8 @@ template <Pixel T>
     return image;
 }
 
-/// @brief The value between pixels by bilinear interpolation; outside the image its edge goes on. NaN counts
-/// as 0. The image must not be empty.
+/// @brief The value between pixels by bilinear interpolation; outside the image the edge pixels are repeated.
+/// NaN counts as 0. The image must not be empty.
 [[nodiscard]] inline float sample_bilinear(ImageView<const float> image, float x, float y) {
     const float cx = std::min(std::max(0.0f, x), static_cast<float>(image.width() - 1));
     const float cy = std::min(std::max(0.0f, y), static_cast<float>(image.height() - 1));

@@ -11,7 +11,7 @@
 
 namespace ism {
 
-/// @brief No detector at all: a regular grid at each of a row of scales, centred in the image. strength = 1.
+/// @brief Not a detector but a regular grid at each of several scales, centred in the image. strength = 1.
 struct DenseGrid {
     static constexpr std::string_view name = "dense";
 

@@ -25,12 +25,11 @@ struct Region {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// @brief What the scale space of an image may take without being made in bands, bytes: those of up to 3
-/// megapixels are made at once.
+/// @brief Largest scale space, in bytes, that is held as a whole: that of an image of about 3 megapixels.
 inline constexpr std::size_t default_space_bytes = std::size_t(512) << 20;
 
 /// @brief Finds and describes the features of one image after another with the same threads and memory: after
-/// the first of a size nothing is allocated any more. One image at a time.
+/// the first of a size nothing is allocated. One image at a time.
 ///
 /// The scale space of a large image takes 160 bytes a pixel. Where that is more than `space_bytes`, it is
 /// made in bands of rows, once to detect, once more to describe (and to orient): the results are the same
@@ -38,7 +37,8 @@ inline constexpr std::size_t default_space_bytes = std::size_t(512) << 20;
 template <Detector D, Descriptor Desc>
 class FeatureExtractor {
 public:
-    /// @param threads  of the pool that works on an image (0 = all the machine has)
+    /// @param threads  of the pool that works on an image (0 = all hardware threads)
+    /// @param space_bytes  most memory for the scale space before it is made in bands
     explicit FeatureExtractor(Extractor<D, Desc> extractor = {}, unsigned threads = 1,
                               std::size_t space_bytes = default_space_bytes)
         : extractor_(std::move(extractor)), workspace_(threads), space_bytes_(space_bytes) {}
@@ -69,7 +69,7 @@ public:
         return set_;
     }
 
-    /// @brief What the last image gave, to keep.
+    /// @brief Moves out the features of the last image.
     [[nodiscard]] FeatureSet<Desc> take() { return std::move(set_); }
 
 private:

@@ -12,12 +12,12 @@
 
 namespace ism {
 
-/// @brief What is done around detector and descriptor.
+/// @brief Options of extraction beside those of detector and descriptor.
 struct ExtractOptions {
     ScaleSpaceOptions scale_space = {};
     double upsampling = 1;         ///< the image is resized by this factor before; 1/16 … 16
     bool oriented = false;         ///< features get dominant directions, and may multiply
-    std::size_t max_features = 0;  ///< keep so many, strong and spread over the image; 0 = all
+    std::size_t max_features = 0;  ///< at most this many, strong and spread over the image; 0 = all
 };
 
 /// @brief Validates `options`.
@@ -27,7 +27,7 @@ inline void check(const ExtractOptions& options) {
     detail::expect_range("upsampling", options.upsampling, min_resize, max_resize);
 }
 
-/// @brief How features are got from an image: a detector, a descriptor, options.
+/// @brief How features are extracted from an image: a detector, a descriptor, options.
 template <Detector D, Descriptor Desc>
 struct Extractor {
     using DetectorType = D;

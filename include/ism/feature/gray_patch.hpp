@@ -17,7 +17,7 @@ namespace ism {
 /// @brief A grey patch as descriptor (as Leibe, Leonardis & Schiele 2008 used): 25×25 samples over ±6 scales,
 /// turned by Feature::angle, number row · 25 + column. Mean and deviation are taken out: a sample z
 /// deviations from the mean becomes 128 + 42·z, rounded and kept within 0 … 255; a patch without contrast is
-/// all 128. Outside the image its edge goes on.
+/// all 128. Outside the image the edge pixels are repeated.
 struct GrayPatch {
     using Scalar = std::uint8_t;
     static constexpr int side = 25;

@@ -16,9 +16,8 @@
 
 namespace ism {
 
-/// @brief Leaves at most `count` of the features, strong ones and such that they cover the image evenly, in
-/// the order they came in: the image (width × height pixels) is cut into cells which take turns giving their
-/// strongest.
+/// @brief Keeps at most `count` features, strong and evenly spread over the image, in their order: the image
+/// (width × height pixels) is cut into cells which take turns giving their strongest.
 inline void keep_strongest_evenly(std::vector<Feature>& features, std::size_t count, int width, int height,
                                   Workspace& workspace) {
     if (features.size() <= count) return;

@@ -66,8 +66,8 @@ namespace ism::detail {
 /// What Harris- and Hessian-Laplace share: which levels give the response, where its scale is looked for.
 struct ScaleSelection {
     int first_level = 0;          ///< of the S levels of each octave whose response is searched
-    float scale_offset = 0;       ///< the Laplacian is looked at so many levels further
-    float scale_tolerance = 0.5;  ///< its extremum lies at most so many octaves from there
+    float scale_offset = 0;       ///< levels from the one searched to where the Laplacian is evaluated
+    float scale_tolerance = 0.5;  ///< octaves from there to its extremum, at most
     float threshold = 0;          ///< least response
     float least_laplacian = 0;    ///< least |normalised Laplacian|
     int border = 5;               ///< pixels of the octave without features along the edge
@@ -99,7 +99,7 @@ inline void check_scale_selection(float least_laplacian, float scale_tolerance, 
     expect_range("border (pixels)", border, 0, max_border);
 }
 
-/// How far search_scale_selected() looks, beyond the rows that the response itself does.
+/// The reach of search_scale_selected(), without that of the response itself.
 [[nodiscard]] inline SearchReach scale_selection_reach(const ScaleSpace& space,
                                                        const ScaleSelection& selection) {
     const int levels = space.levels_per_octave();
@@ -116,7 +116,7 @@ inline void check_scale_selection(float least_laplacian, float scale_tolerance, 
 
 /// Appends the maxima in the plane of a response whose scale is characteristic, of the rows first … end − 1
 /// of an octave. `respond(level, first, end, out, memory)` writes the response of rows of a level into the
-/// rows of `out`; `memory_for(level, rows)` says how many numbers it works with.
+/// rows of `out`; `memory_for(level, rows)` gives the scratch floats it needs.
 template <class MemoryFor, class Respond>
 requires std::invocable<MemoryFor, int, int> &&
     std::invocable<Respond, int, int, int, ImageView<float>, std::span<float>>

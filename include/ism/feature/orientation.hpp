@@ -26,7 +26,7 @@ namespace ism {
 struct OrientationOptions {
     float window = 1.5f;      ///< deviation of the Gaussian window, in units of the feature's scale
     float peak_ratio = 0.8f;  ///< a further direction counts from this share of the strongest on
-    int max_peaks = 4;        ///< at most so many directions a feature
+    int max_peaks = 4;        ///< at most this many directions a feature
 };
 
 /// @brief Validates `options`.

@@ -21,9 +21,9 @@ struct SearchReach {
 };
 
 /// @brief A detector that searches some rows of an octave at a time, so that the scale space of a large image
-/// need never be there as a whole. `prepare` validates the options, readies the workspace for `search` and
-/// says how far that looks; `search` appends what lies in the rows first … end − 1 of an octave, on many
-/// threads; `finish` gets all that was found, in order.
+/// is never held as a whole. `prepare` validates the options, readies the workspace for `search` and says how
+/// far that looks; `search` appends what lies in the rows first … end − 1 of an octave, on many threads;
+/// `finish` gets all that was found, in order.
 template <class D>
 concept RowDetector = Detector<D> &&
     requires(const D& detector, const ScaleSpace& space, Workspace& workspace, std::vector<Feature>& found) {
@@ -41,7 +41,7 @@ using RowOfOctave = std::array<int, max_scale_octaves>;
     return other > octave ? row >> (other - octave) : row << (octave - other);
 }
 
-/// The rows from which on those of an octave are not all there that a search looks at.
+/// Rows of an octave that can be searched: everything within reach of them has been made.
 [[nodiscard]] inline int searchable_rows(const ScaleSpace& space, int octave, SearchReach reach) {
     int rows = space.level_height(octave);
     const int last = std::min(space.octaves() - 1, octave + reach.octaves);
@@ -53,7 +53,7 @@ using RowOfOctave = std::array<int, max_scale_octaves>;
     return rows;
 }
 
-/// The first row of an octave that searches from the rows `searched` on still look at.
+/// The first row of an octave still needed by searches that continue at the rows `searched`.
 [[nodiscard]] inline int row_wanted(const ScaleSpace& space, int octave, const RowOfOctave& searched,
                                     SearchReach reach) {
     int row = space.level_height(octave);
@@ -85,8 +85,8 @@ void search_rows(const D& detector, const ScaleSpace& space, const RowOfOctave& 
     });
 }
 
-/// What a row detector finds while advance() makes the scale space that begin() was called for: the same bits
-/// as search_all_rows() finds in one that is there as a whole.
+/// Runs a row detector while advance() makes the scale space prepared by begin(). The result is bit-identical
+/// to that of search_all_rows() on the whole scale space.
 template <RowDetector D>
 [[nodiscard]] std::vector<Feature> search_advancing(const D& detector, ScaleSpace& space,
                                                     Workspace& workspace) {
@@ -108,7 +108,7 @@ template <RowDetector D>
 
 }  // namespace detail
 
-/// @brief What a row detector finds in a scale space that is there as a whole.
+/// @brief The features a row detector finds in a whole scale space.
 /// @throws Error where one of its options is out of range.
 template <RowDetector D>
 [[nodiscard]] std::vector<Feature> search_all_rows(const D& detector, const ScaleSpace& space,

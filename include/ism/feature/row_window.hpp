@@ -19,34 +19,35 @@ public:
     /// Holds all rows.
     void hold_all(int planes, int width, int height) {
         set_size(planes, width, height);
-        room_ = height;
+        capacity_ = height;
         pixels_.resize(plane() * std::size_t(planes));
     }
 
-    /// Holds some rows, for which slide() makes room; memory held before is used again where it fits.
+    /// Holds some rows, for which slide() makes room; fitting memory is reused. Views are offset by the rows
+    /// dropped, so that a row keeps its number.
     void hold_some(int planes, int width, int height) {
         const bool fits = planes == planes_ && whole_lines(width) == stride_ && height == height_;
         set_size(planes, width, height);
-        if (!fits) room_ = 0;
+        if (!fits) capacity_ = 0;
     }
 
-    /// Makes room for the rows up to end − 1. If there is none, the rows before `needed` are given up; those
-    /// from there to made − 1 are kept.
+    /// Makes room for the rows up to end − 1. Where there is none, rows before `needed` are dropped;
+    /// those from there to made − 1 are kept.
     void slide(int needed, int made, int end, ThreadPool& pool) {
-        if (end - first_ <= room_) return;
+        if (end - first_ <= capacity_) return;
         const int first = std::clamp(needed, first_, std::max(first_, made)), rows = end - first;
-        const int room = rows <= room_ ? room_ : std::min(height_, rows + rows / 2);
-        const bool grows = room > room_;
-        AlignedVector<float> larger(grows ? std::size_t(stride_) * std::size_t(room) * std::size_t(planes_)
-                                          : 0);
+        const int capacity = rows <= capacity_ ? capacity_ : std::min(height_, rows + rows / 2);
+        const bool grows = capacity > capacity_;
+        AlignedVector<float> larger(
+            grows ? std::size_t(stride_) * std::size_t(capacity) * std::size_t(planes_) : 0);
         float* const to = grows ? larger.data() : pixels_.data();
         const std::size_t count = std::size_t(stride_) * std::size_t(std::max(0, made - first));
         pool.for_each(count > 0 ? std::size_t(planes_) : 0, [&](std::size_t i, unsigned) {
-            std::memmove(to + std::size_t(stride_) * std::size_t(room) * i,
+            std::memmove(to + std::size_t(stride_) * std::size_t(capacity) * i,
                          pixels_.data() + plane() * i + stride_ * (first - first_), count * sizeof(float));
         });
         if (grows) pixels_.swap(larger);
-        first_ = first, room_ = room;
+        first_ = first, capacity_ = capacity;
     }
 
     /// Back to the first row.
@@ -64,12 +65,12 @@ private:
     void set_size(int planes, int width, int height) {
         planes_ = planes, width_ = width, height_ = height, first_ = 0, stride_ = whole_lines(width);
     }
-    [[nodiscard]] std::size_t plane() const { return std::size_t(stride_) * std::size_t(room_); }
+    [[nodiscard]] std::size_t plane() const { return std::size_t(stride_) * std::size_t(capacity_); }
     [[nodiscard]] std::ptrdiff_t offset(int i) const {
         return std::ptrdiff_t(plane()) * i - stride_ * first_;
     }
 
-    int planes_ = 0, width_ = 0, height_ = 0, first_ = 0, room_ = 0;
+    int planes_ = 0, width_ = 0, height_ = 0, first_ = 0, capacity_ = 0;
     std::ptrdiff_t stride_ = 0;
     AlignedVector<float> pixels_;
 };

@@ -52,8 +52,8 @@ public:
     }
 
     /// @brief Prepares for advance(); `image`, which check_brightness() has accepted, is to stay until all
-    /// rows are made. Where all levels take more than `max_bytes`, the finest octaves are held in bands: so
-    /// many of them that the others take at most half of it.
+    /// rows are made. Where all levels take more than `max_bytes`, the finest octaves are held in bands, as
+    /// many as it takes for the others to fit into half of it.
     /// @throws Error where the image is smaller than 16×16 or an option out of range.
     void begin(ImageView<const float> image, const ScaleSpaceOptions& options, const Workspace& workspace,
                std::size_t max_bytes = std::size_t(-1)) {
@@ -91,8 +91,8 @@ public:
 
     /// @brief How many octaves, the finest ones, are held in bands.
     [[nodiscard]] int banded_octaves() const { return banded_; }
-    /// @brief So many rows of all levels of an octave are made; in an octave held in bands those before the
-    /// row that forget() was told last may be gone.
+    /// @brief Number of rows of an octave that all its levels have. In an octave held in bands, rows before
+    /// the one last given to forget() may be gone.
     [[nodiscard]] int rows_ready(int octave) const { return rows_made(octave, levels() - 1); }
     /// @brief Rows of an octave before `row` will not be looked at.
     void forget(int octave, int row) { octaves_[std::size_t(octave)].wanted = row; }

@@ -94,15 +94,15 @@ private:
 
     void share_out() {
         batch_.make_polar();
-        // of a gradient: where it goes, and what goes there: to 2×2 cells and in each to two directions
+        // the histogram bin of each gradient and its trilinear shares: 2×2 cells, two directions in each
         alignas(64) std::array<std::int32_t, GradientBatch::capacity> place;
         alignas(64) std::array<GradientBatch::Numbers, 8> part;
         for (std::size_t k = 0; k < batch_.count; ++k) {
             const float dx = batch_.dx[k], dy = batch_.dy[k];
             const float across = cosine_ * dx + sine_ * dy, along = cosine_ * dy - sine_ * dx;
             const float value = batch_.magnitude[k] * small_exp(0.125f * (across * across + along * along));
-            // cells from −1 (half a cell before the first) to 4; +1 for the padding. Rounding may leave a
-            // place a hair outside, and what it gives a hair below 0.
+            // cells from −1 (half a cell before the first) to 4; +1 for the padding. Rounding may put a
+            // sample slightly outside, and its share slightly below 0.
             const float u = across + middle, v = along + middle;
             const int iu = std::min(std::max(int(u), 0), sift_cells);
             const int iv = std::min(std::max(int(v), 0), sift_cells);
@@ -120,7 +120,7 @@ private:
             part[6][k] = lr * (1 - ab), part[7][k] = lr * ab;
             place[k] = (iv * padded + iu) * bins + ib;
         }
-        // neighbours often go to the same place: two histograms, so that no sum waits for the one before it
+        // neighbours often share a bin: two histograms, so that no sum waits for the one before it
         for (std::size_t k = 0; k < batch_.count; ++k) {
             float* to = ((k & 1) == 0 ? even_.data() : odd_.data()) + place[k];
             to[0] += part[0][k], to[1] += part[1][k];
@@ -138,7 +138,7 @@ private:
     alignas(64) std::array<float, padded * padded * bins> even_{}, odd_{};
 };
 
-/// The sum of f(value), in eight parts, as a vector unit adds.
+/// The sum of f(value), in eight partial sums as SIMD lanes would hold them.
 template <class F>
 [[nodiscard]] float sum_of(std::span<const float, sift_size> row, const F& f) {
     std::array<float, 8> parts{};

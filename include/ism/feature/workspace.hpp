@@ -19,7 +19,7 @@
 
 namespace ism {
 
-/// @brief What the scratch buffers of a Workspace are for: numbers of features, one a feature.
+/// @brief What the scratch buffers of a Workspace are for: one number per feature.
 enum class Scratch : std::uint8_t {
     order,        ///< features in another order
     place,        ///< where a feature is in such an order
@@ -33,11 +33,11 @@ enum class Scratch : std::uint8_t {
     count         ///< how many there are of these
 };
 
-/// @brief The threads and the memory that features are found with, lent from frame to frame: after the first
-/// frame of a size nothing is allocated any more. For one frame at a time.
+/// @brief Threads and memory for feature extraction, reused across frames: after the first frame of a size
+/// nothing is allocated. For one frame at a time.
 class Workspace {
 public:
-    /// @brief For so many threads, the caller's among them (0 = all the machine has).
+    /// @brief With this many threads, the caller's included (0 = all hardware threads).
     explicit Workspace(unsigned threads = 1) : pool_(threads), rows_(pool_.size()) {}
 
     [[nodiscard]] ThreadPool& pool() { return pool_; }
@@ -55,36 +55,36 @@ public:
                        });
     }
 
-    /// @brief `count` numbers for one worker of the pool, until it asks again; their values are open. The
-    /// first lies at the start of a cache line.
+    /// @brief Scratch of `count` floats for one worker of the pool, uninitialised, aligned to a cache line;
+    /// valid until that worker's next call.
     [[nodiscard]] std::span<float> rows(unsigned worker, std::size_t count) {
         AlignedVector<float>& own = rows_[worker];
         if (own.size() < count) own.resize(count);
         return {own.data(), count};
     }
 
-    /// @brief `count` empty lists, one for each task, until somebody asks again.
+    /// @brief `count` empty lists, valid until the next call.
     [[nodiscard]] std::span<std::vector<Feature>> lists(std::size_t count) {
         if (lists_.size() < count) lists_.resize(count);
         for (std::size_t i = 0; i < count; ++i) lists_[i].clear();
         return {lists_.data(), count};
     }
 
-    /// @brief Scratch buffer `use` with `count` numbers, uninitialised, until somebody asks for it again.
+    /// @brief The scratch buffer `use` with `count` numbers, uninitialised; valid until the next call for it.
     [[nodiscard]] std::span<std::uint32_t> numbers(Scratch use, std::size_t count) {
         std::vector<std::uint32_t>& own = numbers_[std::size_t(use)];
         if (own.size() < count) own.resize(count);
         return {own.data(), count};
     }
 
-    /// @brief gaussian_kernel(sigma), kept from the first time on.
+    /// @brief gaussian_kernel(sigma), cached.
     [[nodiscard]] std::span<const float> kernel(double sigma) {
         for (const auto& [known, weights] : kernels_)
             if (known == sigma) return weights;
         return kernels_.emplace_back(sigma, gaussian_kernel(sigma)).second;
     }
 
-    /// @brief An empty list to give back as a result; its memory is that of a list returned by reuse().
+    /// @brief An empty list to return as a result; its memory comes from reuse().
     [[nodiscard]] std::vector<Feature> empty_list() {
         if (spare_.empty()) return {};
         std::vector<Feature> list = std::move(spare_.back());
@@ -92,13 +92,13 @@ public:
         list.clear();
         return list;
     }
-    /// @brief Takes back the memory of a list; of many that nobody asks for a few are kept.
+    /// @brief Takes back the memory of a list; a few unused ones are kept.
     void reuse(std::vector<Feature> list) {
         constexpr std::size_t most_spare = 4;
         if (spare_.size() < most_spare) spare_.push_back(std::move(list));
     }
 
-    /// @brief An image, of which reuse() gave back one of this size, if any did; its pixels are open.
+    /// @brief An image, from reuse() where one of this size is there; its pixels are uninitialised.
     [[nodiscard]] GrayImage image(int width, int height) {
         for (std::size_t i = 0; i < images_.size(); ++i)
             if (images_[i].width() == width && images_[i].height() == height) {
