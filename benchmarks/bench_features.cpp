@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Time of each stage of the features by image size, one thread: blur, scale space, detection, orientation,
-// description.
+// description, and all of them together.
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -13,6 +13,7 @@
 
 #include "ism/core/random.hpp"
 #include "ism/feature/blur.hpp"
+#include "ism/feature/extract.hpp"
 #include "ism/feature/orientation.hpp"
 
 namespace {
@@ -75,6 +76,14 @@ TEST_CASE("features by stage", "[!benchmark]") {
             const std::size_t number = found.size();
             workspace.reuse(std::move(found));
             return number;
+        };
+        ism::FeatureExtractor<ism::HessianLaplace, ism::RootSift> hessian;
+        BENCHMARK("all of Hessian-Laplace and RootSIFT" + size) {
+            return hessian.extract(image.view()).features.size();
+        };
+        ism::FeatureExtractor<ism::DifferenceOfGaussians, ism::Sift> blobs;
+        BENCHMARK("all of difference of Gaussians and SIFT" + size) {
+            return blobs.extract(image.view()).features.size();
         };
         std::vector<float> row(ism::Sift::dimension);
         const std::span<float, ism::Sift::dimension> out(row.data(), row.size());

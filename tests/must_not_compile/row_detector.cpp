@@ -1,4 +1,4 @@
-// expect: detector.check()
+// expect: detector.prepare(space, workspace)
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include "ism/feature/row_detector.hpp"

@@ -149,6 +149,7 @@ TEST_CASE("a hypothesis that overlaps an object a little is background, one betw
 TEST_CASE("a mirror exchanges left and right of an image and its labels, and twice is once") {
     ism::TrainingImage image;
     image.frame.gray = ism::GrayImage(4, 2, {0, 1, 2, 3, 4, 5, 6, 7});
+    image.frame.color = ism::RgbImage(4, 2, {{1}, {2}, {3}, {4}, {5}, {6}, {7}, {8}});
     image.frame.depth_m = ism::DepthMap(4, 2, {1, 1, 2, 2, 3, 3, 4, 4});
     image.frame.camera = ism::Camera{.fx = 10, .fy = 10, .cx = 1, .cy = 0.5};
     image.objects = {
@@ -156,6 +157,7 @@ TEST_CASE("a mirror exchanges left and right of an image and its labels, and twi
         {.class_index = 0, .box = {3, 0, 1, 2}}};
     const ism::TrainingImage other = mirrored(image);
     CHECK(other.frame.gray == ism::GrayImage(4, 2, {3, 2, 1, 0, 7, 6, 5, 4}));
+    CHECK(other.frame.color == ism::RgbImage(4, 2, {{4}, {3}, {2}, {1}, {8}, {7}, {6}, {5}}));
     CHECK(other.frame.depth_m == ism::DepthMap(4, 2, {2, 2, 1, 1, 4, 4, 3, 3}));
     CHECK(other.frame.camera->cx == 2);
     CHECK(other.objects[0].box == ism::Box{2, 1, 2, 1});

@@ -153,7 +153,7 @@ TEST_CASE("An image record that makes no sense is refused with the place") {
     CHECK(read_error(with_images(head + R"(,"camera":{"fx":1,"fy":1,"cx":1}})")) ==
           "file 'a.json', image with id 1, camera: cy: expected a number, got nothing");
     CHECK(read_error(with_images(head + R"(,"camera":{"fx":0,"fy":1,"cx":1,"cy":1}})")) ==
-          at + "camera focal lengths fx, fy: expected positive pixels, got 0, 1");
+          at + "camera focal lengths fx, fy (pixels): expected 1 to 1e+07, got 0, 1");
     CHECK(read_error(with_images(head + R"(,"depth_file_name":null,"camera":null})")) == "nothing thrown");
 }
 

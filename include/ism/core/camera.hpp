@@ -24,13 +24,17 @@ struct Camera {
     [[nodiscard]] constexpr bool operator==(const Camera&) const = default;
 };
 
-/// @brief Does nothing where `camera` can be used.
-/// @throws Error where a focal length is not a positive number or the principal point not finite.
+/// @brief Validates `camera`.
+/// @throws Error where a focal length is not 1 to 10⁷ pixels or the principal point more than 10⁷ pixels away
+/// from the first pixel.
 inline void check(const Camera& camera) {
-    expect(std::isfinite(camera.fx) && std::isfinite(camera.fy) && camera.fx > 0 && camera.fy > 0,
-           "camera focal lengths fx, fy", "positive pixels", lazy_text(camera.fx, ", ", camera.fy));
-    expect(std::isfinite(camera.cx) && std::isfinite(camera.cy), "camera principal point cx, cy",
-           "finite pixels", lazy_text(camera.cx, ", ", camera.cy));
+    constexpr double most = 1e7;
+    const auto is_focal = [](double f) { return f >= 1 && f <= most; };
+    const auto is_place = [](double c) { return std::fabs(c) <= most; };
+    expect(is_focal(camera.fx) && is_focal(camera.fy), "camera focal lengths fx, fy (pixels)", "1 to 1e+07",
+           lazy_text(camera.fx, ", ", camera.fy));
+    expect(is_place(camera.cx) && is_place(camera.cy), "camera principal point cx, cy (pixels)",
+           "-1e+07 to 1e+07", lazy_text(camera.cx, ", ", camera.cy));
 }
 
 /// @brief The point in the camera frame that is seen at `pixel` and lies `depth_m` along the optical axis.

@@ -2,36 +2,41 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <optional>
-#include <utility>
 
 #include "ism/core/camera.hpp"
 #include "ism/core/image.hpp"
 
 namespace ism {
 
-/// @brief What one shot of a camera gives: brightness, and where there is a depth sensor its registered
-/// depth in metres (empty = none) and the camera.
+/// @brief One image of a camera: brightness and, optionally, colour, registered depth in metres (both of the
+/// size of `gray`; empty = none) and the camera itself.
 struct Frame {
     GrayImage gray;
+    RgbImage color = {};
     DepthMap depth_m = {};
     std::optional<Camera> camera = {};
 };
 
-/// @brief Does nothing where `frame` can be used.
-/// @throws Error where the image is smaller than 16×16, the depth is of another size or without a single
-/// reading, or the camera is not one.
+/// @brief Validates the sizes of `frame`, that its depth has readings, and its camera. The brightness itself
+/// is validated where features are extracted.
+/// @throws Error where the image is smaller than 16×16, colour or depth is of another size, the depth is
+/// without a single reading, or the camera is not one.
 inline void check(const Frame& frame) {
+    const auto has_size_of_gray = [&](const auto& image) {
+        return image.width() == frame.gray.width() && image.height() == frame.gray.height();
+    };
     expect(frame.gray.width() >= 16 && frame.gray.height() >= 16, "image size", "at least 16x16",
            size_text(frame.gray));
-    for (const float value : frame.gray.pixels())
-        expect(std::isfinite(value), "image brightness", "finite values", value);
+    expect(frame.color.empty() || has_size_of_gray(frame.color), "color image size", size_text(frame.gray),
+           size_text(frame.color));
     if (!frame.depth_m.empty()) {
-        expect(frame.depth_m.width() == frame.gray.width() && frame.depth_m.height() == frame.gray.height(),
-               "depth image size", size_text(frame.gray), size_text(frame.depth_m));
-        bool any = false;
-        for (const float value : frame.depth_m.pixels()) any = any || is_depth(value);
-        expect(any, "depth image", "at least one reading above 0", "none");
+        expect(has_size_of_gray(frame.depth_m), "depth image size", size_text(frame.gray),
+               size_text(frame.depth_m));
+        const auto pixels = frame.depth_m.pixels();
+        expect(std::any_of(pixels.begin(), pixels.end(), [](float value) { return is_depth(value); }),
+               "depth image", "at least one reading above 0", "none");
     }
     if (frame.camera) check(*frame.camera);
 }

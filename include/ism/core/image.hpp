@@ -21,11 +21,11 @@ struct Rgb {
     [[nodiscard]] constexpr bool operator==(const Rgb&) const = default;
 };
 
-/// @brief What an image may hold: plain values that can be copied byte by byte.
+/// @brief Pixel types: plain values that can be copied byte by byte.
 template <class T>
 concept Pixel = std::is_trivially_copyable_v<T> && std::is_default_constructible_v<T>;
 
-/// @brief A rectangle of pixels that somebody else owns. Rows lie `stride` pixels apart.
+/// @brief A non-owning rectangle of pixels. Rows lie `stride` pixels apart.
 /// Pixel (x, y) has its centre at the coordinates (x, y); x runs right, y down.
 template <class T>
 requires Pixel<std::remove_const_t<T>>
@@ -37,7 +37,7 @@ public:
     constexpr ImageView(T* data, int width, int height, std::ptrdiff_t stride)
         : data_(data), width_(width), height_(height), stride_(stride) {}
 
-    /// @brief A view that may change its pixels is also one that may not.
+    /// @brief A mutable view converts to a read-only one.
     constexpr operator ImageView<const T>() const requires(!std::is_const_v<T>) {
         return {data_, width_, height_, stride_};
     }
@@ -58,7 +58,7 @@ public:
     /// @brief The part of width × height whose first pixel is (x, y).
     /// @throws Error where it reaches outside this view.
     [[nodiscard]] ImageView region(int x, int y, int width, int height) const {
-        expect(x >= 0 && y >= 0 && width >= 0 && height >= 0 && x + width <= width_ && y + height <= height_,
+        expect(x >= 0 && y >= 0 && width >= 0 && height >= 0 && x <= width_ - width && y <= height_ - height,
                "image region", lazy_text("a part of ", width_, "x", height_),
                lazy_text(width, "x", height, " at (", x, ", ", y, ")"));
         return {data_ + y * stride_ + x, width, height, stride_};
@@ -179,10 +179,11 @@ template <Pixel T>
     return image;
 }
 
-/// @brief The value between pixels by bilinear interpolation; outside the image its edge goes on.
+/// @brief The value between pixels by bilinear interpolation; outside the image the edge pixels are repeated.
+/// NaN counts as 0. The image must not be empty.
 [[nodiscard]] inline float sample_bilinear(ImageView<const float> image, float x, float y) {
-    const float cx = std::clamp(x, 0.0f, static_cast<float>(image.width() - 1));
-    const float cy = std::clamp(y, 0.0f, static_cast<float>(image.height() - 1));
+    const float cx = std::min(std::max(0.0f, x), static_cast<float>(image.width() - 1));
+    const float cy = std::min(std::max(0.0f, y), static_cast<float>(image.height() - 1));
     const int x0 = static_cast<int>(cx), y0 = static_cast<int>(cy);
     const int x1 = x0 + 1 < image.width() ? x0 + 1 : x0, y1 = y0 + 1 < image.height() ? y0 + 1 : y0;
     const float ax = cx - static_cast<float>(x0), ay = cy - static_cast<float>(y0);

@@ -21,7 +21,7 @@ namespace detail {
 inline constexpr int unrolled_radius = 16;
 
 /// Two rows of blurred columns, one below the other. `rows` are the 2 · radius + 2 rows around them. With
-/// Radius > 0 the tap loops have a fixed length, so that the compiler can turn them inside out.
+/// Radius > 0 the tap loops have a fixed length, so that the compiler can unroll and vectorise them.
 template <int Radius>
 void blur_columns(const float* const* rows, const float* kernel, int dynamic_radius, int width,
                   float* __restrict upper, float* __restrict lower) {
@@ -65,7 +65,7 @@ void blur_along(float* __restrict row, const float* kernel, int dynamic_radius, 
     }
 }
 
-/// What blurs columns and rows of one radius.
+/// The blur functions for one radius.
 struct BlurFunctions {
     void (*columns)(const float* const*, const float*, int, int, float* __restrict, float* __restrict);
     void (*along)(float* __restrict, const float*, int, int, float* __restrict);
@@ -82,7 +82,7 @@ inline constexpr auto blur_of_radius = blur_functions(std::make_integer_sequence
 
 inline constexpr int blur_rows_at_once = 16;
 
-/// How many numbers blur_band() works with.
+/// Scratch floats needed by blur_band().
 [[nodiscard]] inline std::size_t blur_scratch(int width, int radius) {
     return std::size_t(blur_rows_at_once) * std::size_t(whole_lines(radius) + whole_lines(width + radius));
 }
@@ -103,7 +103,7 @@ void blur_band(const Source& source_row, int width, int height, std::span<const 
     const float** sources = unrolled ? few.data() : many.data();
     for (int y = first; y < end; y += blur_rows_at_once) {
         const int count = std::min(blur_rows_at_once, end - y);
-        // an odd number of rows is filled up with one that is thrown away, of rows that are there
+        // an odd last row is paired with a repeated one, whose result is discarded
         for (int i = 0; i < count + 2 * radius; ++i)
             sources[i] = source_row(std::clamp(y - radius + i, 0, height - 1));
         sources[count + 2 * radius] = sources[count + 2 * radius - 1];
@@ -124,7 +124,7 @@ void blur_band(const Source& source_row, int width, int height, std::span<const 
 }  // namespace detail
 
 /// @brief Blurs `image` with a kernel from gaussian_kernel() into `out`, another image of the same size.
-/// Outside the image its edge goes on.
+/// Outside the image the edge pixels are repeated.
 inline void blur(ImageView<const float> image, std::span<const float> kernel, ImageView<float> out,
                  Workspace& workspace) {
     constexpr int rows_per_task = 32;

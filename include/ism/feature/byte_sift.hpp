@@ -20,8 +20,10 @@ struct AsBytes {
     using Scalar = std::uint8_t;
     static constexpr std::size_t dimension = D::dimension;
     static constexpr std::string_view name = std::same_as<D, Sift> ? "byte-sift" : "byte-root-sift";
-    static constexpr float support_radius = D::support_radius;
+    static constexpr float support_radius = D::support_radius, reach = D::reach;
     static constexpr double sq_length = 512.0 * 512.0;
+
+    [[nodiscard]] static float level_scale(const Feature& f) { return D::level_scale(f); }
 
     void describe(const ScaleSpace& space, const Feature& f, std::span<std::uint8_t, dimension> out) const {
         std::array<float, dimension> exact;

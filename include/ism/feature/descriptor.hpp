@@ -30,4 +30,14 @@ concept Descriptor = std::copyable<D> && DescriptorScalar<typename D::Scalar> &&
     { descriptor.describe(space, feature, row) } -> std::same_as<void>;
 };
 
+/// @brief A descriptor that declares which pixels it reads, so that the scale space of a large image is never
+/// held as a whole: describe() looks at space.sampling(s) or the level space.nearest_level(s), s =
+/// level_scale(f), alone, at most `reach` · f.scale (and four of its pixels) from the feature. Other
+/// descriptors work too.
+template <class D>
+concept LocalDescriptor = Descriptor<D> && requires(const Feature& feature) {
+    { D::reach } -> std::convertible_to<float>;
+    { D::level_scale(feature) } -> std::same_as<float>;
+};
+
 }  // namespace ism

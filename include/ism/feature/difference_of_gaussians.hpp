@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ism/feature/range.hpp"
 #include "ism/feature/row_detector.hpp"
 
 namespace ism {
@@ -36,11 +37,12 @@ struct DifferenceOfGaussians {
         visit("border", self.border);
     }
 
-    /// @throws Error where an option is out of range.
-    void check() const {
-        expect(contrast_threshold >= 0, "contrast_threshold", "0 or more", contrast_threshold);
-        expect(edge_ratio >= 1, "edge_ratio", "1 or more", edge_ratio);
-        expect(border >= 1, "border (pixels)", "1 or more", border);
+    /// @brief Validates the options.
+    /// @throws Error where one is out of range.
+    friend void check(const DifferenceOfGaussians& options) {
+        detail::expect_range("contrast_threshold", options.contrast_threshold, 0.0f, detail::max_threshold);
+        detail::expect_range("edge_ratio", options.edge_ratio, 1.0f, 1e9f);
+        detail::expect_range("border (pixels)", options.border, 1, detail::max_border);
     }
 
     /// @throws Error where an option is out of range.
@@ -48,10 +50,12 @@ struct DifferenceOfGaussians {
         return search_all_rows(*this, space, workspace);
     }
 
-    /// @brief How many rows above and below the rows searched are looked at.
-    static constexpr int search_reach = 6;
-
-    /// @brief Appends what lies in the rows first … end − 1 of an octave, as detect() does.
+    /// @brief See RowDetector.
+    [[nodiscard]] SearchReach prepare(const ScaleSpace& /*space*/, const Workspace& /*workspace*/) const {
+        check(*this);
+        return {.rows = search_reach};
+    }
+    /// @brief See RowDetector.
     void search(const ScaleSpace& space, int octave, int first, int end, Workspace& workspace,
                 unsigned worker, std::vector<Feature>& found) const {
         const ImageView<const float> level = space.level(octave, 0);
@@ -62,8 +66,12 @@ struct DifferenceOfGaussians {
         search_rows(space, octave, first, end, workspace.rows(worker, size), found);
     }
 
+    /// @brief See RowDetector.
+    void finish(std::vector<Feature>& /*features*/, const Workspace& /*workspace*/) const {}
+
 private:
     static constexpr int marks_at_once = 64;
+    static constexpr int search_reach = 6;  // rows that the refinement may move to, and their neighbours
 
     /// The differences d(layer) = level(layer + 1) − level(layer) of three rows, which roll over the octave.
     struct Window {

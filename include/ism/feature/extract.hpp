@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -27,30 +26,40 @@ struct Region {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
+/// @brief Largest scale space, in bytes, that is held as a whole: that of an image of about 3 megapixels.
+inline constexpr std::size_t default_space_bytes = std::size_t(512) << 20;
+
 /// @brief Finds and describes the features of one image after another with the same threads and memory: after
-/// the first of a size nothing is allocated any more. One image at a time.
+/// the first of a size nothing is allocated. One image at a time.
+///
+/// The scale space of a large image takes 160 bytes a pixel. Where that is more than `space_bytes`, it is
+/// made in bands of rows, once to detect, once more to describe (and to orient): the results are the same
+/// bits. This asks for a RowDetector and a LocalDescriptor; with others all of it is held.
 template <Detector D, Descriptor Desc>
 class FeatureExtractor {
 public:
     using Set = FeatureSet<typename Desc::Scalar>;
 
-    /// @param threads  of the pool that works on an image (0 = all the machine has)
-    explicit FeatureExtractor(Extractor<D, Desc> extractor = {}, unsigned threads = 1)
-        : extractor_(std::move(extractor)), workspace_(threads) {}
+    /// @param threads  of the pool that works on an image (0 = all hardware threads)
+    /// @param space_bytes  most memory for the scale space before it is made in bands
+    explicit FeatureExtractor(Extractor<D, Desc> extractor = {}, unsigned threads = 1,
+                              std::size_t space_bytes = default_space_bytes)
+        : extractor_(std::move(extractor)), workspace_(threads), space_bytes_(space_bytes) {}
 
-    /// @param pool  that works on an image; it has to stay as long as this
-    FeatureExtractor(Extractor<D, Desc> extractor, ThreadPool& pool)
-        : extractor_(std::move(extractor)), workspace_(pool) {}
+    /// @param pool  works on an image; has to stay as long as this
+    FeatureExtractor(Extractor<D, Desc> extractor, ThreadPool& pool,
+                     std::size_t space_bytes = default_space_bytes)
+        : extractor_(std::move(extractor)), workspace_(pool), space_bytes_(space_bytes) {}
 
     /// @brief Features of `image` (brightness 0 … 1) and their descriptors, until the next call; positions
     /// and scales are in pixels of `image` whatever it was resized by. The same for any number of threads.
     /// With a region only features whose centre lies in it; those of scales up to 8 pixels are the same as
     /// without.
-    /// @throws Error where the image, resized or not, or the region is smaller than 16×16, a pixel is not
-    /// finite or an option is out of range.
+    /// @throws Error where the image, resized or not, or the region is smaller than 16×16, a pixel is not a
+    /// number or beyond ±max_brightness, or an option is out of range.
     const Set& extract(ImageView<const float> image, std::optional<Region> region = {}) {
         check_size(image);
-        each_row(image.height(), [&](int y) { check_finite(image, y); });
+        check_brightness(image, workspace_);
         return part(image, region);
     }
 
@@ -58,7 +67,7 @@ public:
     const Set& extract(ImageView<const std::uint8_t> image, std::optional<Region> region = {}) {
         check_size(image);
         GrayImage gray = workspace_.image(image.width(), image.height());
-        each_row(image.height(), [&](int y) {
+        workspace_.each_row(image.height(), [&](int y) {
             const std::uint8_t* from = image.row(y).data();
             float* to = gray.row(y).data();
             for (int x = 0; x < image.width(); ++x) to[x] = float(from[x]) / 255.0f;
@@ -68,46 +77,25 @@ public:
         return set_;
     }
 
-    /// @brief What the last image gave, to keep.
+    /// @brief Moves out the features of the last image.
     [[nodiscard]] Set take() {
-        return std::exchange(
-            set_, {.features = {}, .descriptors = Descriptors<typename Desc::Scalar>(Desc::dimension)});
+        return std::exchange(set_, {.features = {}, .descriptors = empty_descriptors()});
     }
-    /// @brief Scale space of the last image, resized by its upsampling.
-    [[nodiscard]] const ScaleSpace& scale_space() const { return space_; }
 
 private:
+    [[nodiscard]] static Descriptors<typename Desc::Scalar> empty_descriptors() {
+        return Descriptors<typename Desc::Scalar>(Desc::dimension);
+    }
+
     template <class T>
     void check_size(ImageView<const T> image) const {
-        const double factor = extractor_.options.upsampling;
-        expect(std::isfinite(factor) && factor > 0, "upsampling", "a positive number", factor);
+        check(extractor_);
         expect(image.width() >= 16 && image.height() >= 16, "image size", "at least 16x16", size_text(image));
-    }
-
-    static void check_finite(ImageView<const float> image, int y) {
-        int wrong = 0;
-        for (const float value : image.row(y)) wrong |= int(!(std::fabs(value) <= FLT_MAX));
-        if (wrong == 0) return;
-        for (int x = 0; x < image.width(); ++x)
-            if (!std::isfinite(image(x, y)))
-                throw Error(join_text("image brightness at (", x, ", ", y, "): expected a finite value, got ",
-                                      image(x, y)));
-    }
-
-    template <std::invocable<int> Body>
-    void each_row(int rows, const Body& body) {
-        constexpr int rows_per_task = 32;
-        workspace_.pool().for_each(std::size_t(rows + rows_per_task - 1) / rows_per_task,
-                                   [&](std::size_t task, unsigned) {
-                                       const int first = int(task) * rows_per_task;
-                                       for (int y = first; y < std::min(rows, first + rows_per_task); ++y)
-                                           body(y);
-                                   });
     }
 
     /// The features of a region, or of the whole image.
     const Set& part(ImageView<const float> image, const std::optional<Region>& region) {
-        if (!region) return run(image, 0, 0, {0, 0, image.width(), image.height()});
+        if (!region) return resize(image, 0, 0, {0, 0, image.width(), image.height()});
         (void)image.region(region->x, region->y, region->width, region->height);
         expect(region->width >= 16 && region->height >= 16, "image region size", "at least 16x16",
                lazy_text(region->width, "x", region->height));
@@ -117,43 +105,42 @@ private:
         const int y0 = std::max(0, region->y - margin) / grid * grid;
         const int x1 = std::min(image.width(), region->x + region->width + margin);
         const int y1 = std::min(image.height(), region->y + region->height + margin);
-        return run(image.region(x0, y0, x1 - x0, y1 - y0), x0, y0, *region);
+        return resize(image.region(x0, y0, x1 - x0, y1 - y0), x0, y0, *region);
     }
 
-    /// The features of an image in pixels of the scale space.
-    [[nodiscard]] std::vector<Feature> detect(ImageView<const float> image) {
+    /// `image` is the part of the whole that begins at (x0, y0).
+    const Set& resize(ImageView<const float> image, int x0, int y0, const Region& region) {
         const ExtractOptions& options = extractor_.options;
-        if (options.upsampling == 1) return detect(image, options.scale_space);
+        const bool part = image.width() != region.width || image.height() != region.height;
         ScaleSpaceOptions scale_space = options.scale_space;
+        if (options.upsampling == 1) return run(image, scale_space, x0, y0, region, part);
         GrayImage other = resized(image, options.upsampling, scale_space.input_sigma, workspace_);
         expect(other.width() >= 16 && other.height() >= 16, "image size after upsampling", "at least 16x16",
                size_text(other));
-        scale_space.input_sigma *= float(std::max(1.0, options.upsampling));
-        std::vector<Feature> found = detect(other, scale_space);
+        scale_space.input_sigma =
+            std::min(max_input_sigma, scale_space.input_sigma * float(std::max(1.0, options.upsampling)));
+        run(other, scale_space, x0, y0, region, part);
         workspace_.reuse(std::move(other));
-        return found;
+        return set_;
     }
 
+    /// The features of an image in its pixels.
     [[nodiscard]] std::vector<Feature> detect(ImageView<const float> image,
                                               const ScaleSpaceOptions& options) {
-        const D& detector = extractor_.detector;
-        if constexpr (RowDetector<D>) {
-            detector.check();
-            const auto found = workspace_.lists(workspace_.pool().size());
-            space_.build(image, options, workspace_, D::search_reach,
-                         [&](int octave, int first, int end, unsigned worker) {
-                             detector.search(space_, octave, first, end, workspace_, worker, found[worker]);
-                         });
-            return detail::in_order(found, workspace_);
+        if constexpr (RowDetector<D> && LocalDescriptor<Desc>) {
+            space_.begin(image, options, workspace_, space_bytes_);
+            return detail::search_advancing(extractor_.detector, space_, workspace_);
         } else {
-            space_.build(image, options, workspace_);
-            return detector.detect(space_, workspace_);
+            space_.begin(image, options, workspace_);
+            while (space_.advance(workspace_)) continue;
+            return extractor_.detector.detect(space_, workspace_);
         }
     }
 
-    /// `image` is the part of the whole that begins at (x0, y0); kept is what lies in the region of the
-    /// whole.
-    const Set& run(ImageView<const float> image, int x0, int y0, const Region& region) {
+    /// What extract() gives, of an image that is resized already. Where it is a part of the whole, only what
+    /// lies in the region of the whole is kept.
+    const Set& run(ImageView<const float> resized_image, const ScaleSpaceOptions& scale_space, int x0, int y0,
+                   const Region& region, bool part) {
         const ExtractOptions& options = extractor_.options;
         const float factor = float(options.upsampling);
         std::vector<Feature>& features = set_.features;
@@ -166,10 +153,10 @@ private:
                 keep_strongest_evenly(features, options.max_features, space_.width(), space_.height(),
                                       workspace_);
         };
-        replace(detect(image));
+        replace(detect(resized_image, scale_space));
         const float left = float(region.x - x0) * factor, top = float(region.y - y0) * factor;
         const float right = left + float(region.width) * factor, bottom = top + float(region.height) * factor;
-        if (image.width() != region.width || image.height() != region.height)
+        if (part)
             std::erase_if(features, [&](const Feature& f) {
                 return f.x < left || f.y < top || f.x >= right || f.y >= bottom;
             });
@@ -185,23 +172,26 @@ private:
     }
 
     void describe() {
-        constexpr std::size_t features_per_task = 32;
-        const std::size_t count = set_.features.size();
-        set_.descriptors.resize(count);
-        workspace_.pool().for_each(
-            (count + features_per_task - 1) / features_per_task, [&](std::size_t task, unsigned) {
-                const std::size_t first = task * features_per_task;
-                for (std::size_t i = first; i < std::min(count, first + features_per_task); ++i)
-                    extractor_.descriptor.describe(
-                        space_, set_.features[i],
-                        std::span<typename Desc::Scalar, Desc::dimension>(set_.descriptors.row(i)));
-            });
+        const std::vector<Feature>& features = set_.features;
+        set_.descriptors.resize(features.size());
+        const auto describe_one = [&](std::size_t i) {
+            extractor_.descriptor.describe(
+                space_, features[i],
+                std::span<typename Desc::Scalar, Desc::dimension>(set_.descriptors.row(i)));
+        };
+        if constexpr (LocalDescriptor<Desc>)
+            detail::for_each_feature(space_, features, Desc::reach, Desc::level_scale, workspace_,
+                                     describe_one);
+        else
+            detail::for_each_feature(
+                space_, features, 0, [](const Feature& f) { return f.scale; }, workspace_, describe_one);
     }
 
     Extractor<D, Desc> extractor_;
     Workspace workspace_;
+    std::size_t space_bytes_;
     ScaleSpace space_;
-    Set set_{.features = {}, .descriptors = Descriptors<typename Desc::Scalar>(Desc::dimension)};
+    Set set_{.features = {}, .descriptors = empty_descriptors()};
 };
 
 /// @brief Features of one image: FeatureExtractor::extract() with threads and memory of its own.

@@ -14,7 +14,7 @@
 
 namespace ism {
 
-/// @brief A place in an image that a detector found.
+/// @brief A local feature found by a detector.
 struct Feature {
     float x = 0, y = 0;        ///< sub-pixel position, pixels of the image given
     float scale = 1;           ///< s_f: standard deviation of its Gaussian scale, pixels of the image given
@@ -24,7 +24,7 @@ struct Feature {
     [[nodiscard]] bool operator==(const Feature&) const = default;
 };
 
-/// @brief What the numbers of a descriptor may be.
+/// @brief Element types of descriptors.
 template <class T>
 concept DescriptorScalar = std::same_as<T, float> || std::same_as<T, std::uint8_t>;
 

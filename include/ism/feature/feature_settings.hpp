@@ -133,16 +133,20 @@ template <Detector D, Descriptor Desc>
 }
 
 /// @brief The extractor of these types that settings tell of; the reverse of settings_of().
-/// @throws Error where they tell of another detector or descriptor, or of other parameters.
+/// @throws Error where they tell of another detector or descriptor, of other parameters, or of one out of
+/// range.
 template <Detector D, Descriptor Desc>
 [[nodiscard]] Extractor<D, Desc> extractor_from(const FeatureSettings& settings) {
     expect(settings.detector == D::name, "detector", D::name, settings.detector);
     expect(settings.descriptor == Desc::name, "descriptor", Desc::name, settings.descriptor);
     expect(settings.dimension == Desc::dimension, "descriptor dimension", Desc::dimension,
            settings.dimension);
-    return {.detector = detail::with_parameters<D>(settings.detector_parameters, settings.detector),
-            .descriptor = detail::with_parameters<Desc>(settings.descriptor_parameters, settings.descriptor),
-            .options = settings.options};
+    Extractor<D, Desc> extractor{
+        .detector = detail::with_parameters<D>(settings.detector_parameters, settings.detector),
+        .descriptor = detail::with_parameters<Desc>(settings.descriptor_parameters, settings.descriptor),
+        .options = settings.options};
+    check(extractor);
+    return extractor;
 }
 
 }  // namespace ism

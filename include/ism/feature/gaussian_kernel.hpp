@@ -11,13 +11,18 @@
 
 namespace ism {
 
+/// @brief Pixels that gaussian_kernel() reaches to one side; 0 for the deviation 0, which needs no kernel.
+[[nodiscard]] inline int kernel_radius(double sigma) {
+    return sigma > 0 ? std::max(1, int(std::ceil(3 * sigma))) : 0;
+}
+
 /// @brief Half of a symmetric Gaussian kernel: the middle weight, then those to one side. Its sum over both
 /// sides is 1 and its variance is sigma² (pixels²), although it is sampled and ends at 3 sigma: so
 /// blurring step by step adds up as the continuous Gaussian does.
 /// @throws Error where `sigma` is not a positive number.
 [[nodiscard]] inline std::vector<float> gaussian_kernel(double sigma) {
     expect(std::isfinite(sigma) && sigma > 0, "Gaussian deviation (pixels)", "a positive number", sigma);
-    const int radius = std::max(1, int(std::ceil(3 * sigma)));
+    const int radius = kernel_radius(sigma);
     std::vector<double> half(std::size_t(radius) + 1);
     const auto variance_of = [&](double width) {
         double sum = half[0] = 1, moment = 0;

@@ -44,7 +44,7 @@ inline void to_polar(float dx, float dy, float& magnitude, float& angle) {
                                                             x * (1 / 120.f + x * (1 / 720.f + x / 5040)))))));
 }
 
-/// Gradients around a place, at most so many at once, one kind of number after the other.
+/// A batch of gradients around a point, stored as a structure of arrays.
 struct GradientBatch {
     static constexpr std::size_t capacity = 512;
     using Numbers = std::array<float, capacity>;
@@ -54,7 +54,7 @@ struct GradientBatch {
     alignas(64) Numbers magnitude;  ///< brightness a pixel
     alignas(64) Numbers angle;      ///< radians from x towards y, −π … π
 
-    /// Adds those, by central differences, at the pixels (first + k, row), k < more, which all have four
+    /// Adds gradients, by central differences, at the pixels (first + k, row), k < more, which all have four
     /// neighbours; magnitude and angle hold its components until make_polar().
     void add_row(ImageView<const float> image, int first, int row, std::size_t more, float x, float y) {
         const float* __restrict here = image.row(row).data() + first;

@@ -41,39 +41,65 @@ struct HarrisLaplace {
         visit("border", self.border);
     }
 
+    /// @brief Validates the options.
+    /// @throws Error where one is out of range.
+    friend void check(const HarrisLaplace& options) {
+        detail::expect_range("Harris threshold", options.threshold, 0.0f, detail::max_threshold);
+        detail::expect_range("Harris alpha", options.alpha, 0.0f, 0.25f);
+        detail::check_scale_selection(options.least_laplacian, options.scale_tolerance, options.border);
+    }
+
     /// @throws Error where an option is out of range.
     [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, Workspace& workspace) const {
-        expect(threshold >= 0, "Harris threshold", "0 or more", threshold);
-        expect(alpha >= 0 && alpha < 0.25f, "Harris alpha", "0 to 0.25", alpha);
-        expect(scale_tolerance > 0 && scale_tolerance <= 1, "scale_tolerance (octaves)", "above 0, up to 1",
-               scale_tolerance);
-        expect(border >= 0, "border (pixels)", "0 or more", border);
-        const float offset = 0.5f * float(space.levels_per_octave());
-        std::array<std::span<const float>, 32> kernels;  // one a level, of the integration scale
+        return search_all_rows(*this, space, workspace);
+    }
+
+    /// @brief See RowDetector.
+    [[nodiscard]] SearchReach prepare(const ScaleSpace& space, Workspace& workspace) const {
+        check(*this);
+        SearchReach reach = detail::scale_selection_reach(space, selection(space));
         for (int level = 0; level < space.levels_per_octave(); ++level)
-            kernels[std::size_t(level)] = workspace.kernel(space.level_sigma(float(level) + offset));
-        const auto memory_for = [&](int octave, int level, int rows) {
-            const int radius = int(kernels[std::size_t(level)].size()) - 1;
-            const int width = space.level(octave, 0).width();
+            reach.rows = std::max(reach.rows, int(kernel(space, level, workspace).size()) + 3);
+        return reach;
+    }
+    /// @brief See RowDetector.
+    void search(const ScaleSpace& space, int octave, int first, int end, Workspace& workspace,
+                unsigned worker, std::vector<Feature>& found) const {
+        const int width = space.level(octave, 0).width();
+        const auto memory_for = [&](int level, int rows) {
+            const int radius = int(kernel(space, level, workspace).size()) - 1;
             return 3 * std::size_t(width) * std::size_t(2 * rows + 2 * radius + 1) +
                    detail::blur_scratch(width, radius);
         };
-        const auto respond = [&](int octave, int level, int first, int end, ImageView<float> out,
+        const auto respond = [&](int level, int top, int bottom, ImageView<float> out,
                                  std::span<float> memory) {
-            harris(space.level(octave, level), first, end, space.level_sigma(float(level)),
-                   kernels[std::size_t(level)], memory, out);
+            harris(space.level(octave, level), top, bottom, space.level_sigma(float(level)),
+                   kernel(space, level, workspace), memory, out);
         };
-        return detail::scale_selected_maxima(space,
-                                             {.first_level = 0,
-                                              .scale_offset = offset,
-                                              .scale_tolerance = scale_tolerance,
-                                              .threshold = threshold,
-                                              .least_laplacian = least_laplacian,
-                                              .border = border},
-                                             workspace, memory_for, respond);
+        detail::search_scale_selected(space, selection(space), octave, first, end, workspace, worker, found,
+                                      memory_for, respond);
+    }
+    /// @brief See RowDetector.
+    void finish(std::vector<Feature>& features, Workspace& workspace) const {
+        detail::drop_scale_selected(features, workspace);
     }
 
 private:
+    [[nodiscard]] detail::ScaleSelection selection(const ScaleSpace& space) const {
+        return {.first_level = 0,
+                .scale_offset = 0.5f * float(space.levels_per_octave()),
+                .scale_tolerance = scale_tolerance,
+                .threshold = threshold,
+                .least_laplacian = least_laplacian,
+                .border = border};
+    }
+
+    /// Averages over the integration scale of a level. Made by prepare(), so that search() only reads it.
+    [[nodiscard]] static std::span<const float> kernel(const ScaleSpace& space, int level,
+                                                       Workspace& workspace) {
+        return workspace.kernel(space.level_sigma(float(level) + 0.5f * float(space.levels_per_octave())));
+    }
+
     /// The measure for the rows first … end − 1, written into the rows of `out`.
     void harris(ImageView<const float> image, int first, int end, float sigma_d,
                 std::span<const float> kernel, std::span<float> memory, ImageView<float> out) const {

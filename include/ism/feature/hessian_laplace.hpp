@@ -34,32 +34,52 @@ struct HessianLaplace {
         visit("border", self.border);
     }
 
+    /// @brief Validates the options.
+    /// @throws Error where one is out of range.
+    friend void check(const HessianLaplace& options) {
+        detail::expect_range("Hessian threshold", options.threshold, 0.0f, detail::max_threshold);
+        detail::check_scale_selection(options.least_laplacian, options.scale_tolerance, options.border);
+    }
+
     /// @throws Error where an option is out of range.
     [[nodiscard]] std::vector<Feature> detect(const ScaleSpace& space, Workspace& workspace) const {
-        expect(threshold >= 0, "Hessian threshold", "0 or more", threshold);
-        expect(scale_tolerance > 0 && scale_tolerance <= 1, "scale_tolerance (octaves)", "above 0, up to 1",
-               scale_tolerance);
-        expect(border >= 0, "border (pixels)", "0 or more", border);
-        const auto respond = [&](int octave, int level, int first, int end, ImageView<float> out,
-                                 std::span<float>) {
+        return search_all_rows(*this, space, workspace);
+    }
+
+    /// @brief See RowDetector.
+    [[nodiscard]] SearchReach prepare(const ScaleSpace& space, const Workspace& /*workspace*/) const {
+        check(*this);
+        return detail::scale_selection_reach(space, selection());
+    }
+    /// @brief See RowDetector.
+    void search(const ScaleSpace& space, int octave, int first, int end, Workspace& workspace,
+                unsigned worker, std::vector<Feature>& found) const {
+        const auto respond = [&](int level, int top, int bottom, ImageView<float> out, std::span<float>) {
             const ImageView<const float> image = space.level(octave, level);
             const float sigma = space.level_sigma(float(level)), sigma4 = sigma * sigma * sigma * sigma;
-            for (int y = first; y < end; ++y)
+            for (int y = top; y < bottom; ++y)
                 determinant(image.row(y - 1).data(), image.row(y).data(), image.row(y + 1).data(),
-                            image.width(), sigma4, out.row(y - first).data());
+                            image.width(), sigma4, out.row(y - top).data());
         };
-        return detail::scale_selected_maxima(
-            space,
-            {.first_level = 1,
-             .scale_offset = 0,
-             .scale_tolerance = scale_tolerance,
-             .threshold = threshold,
-             .least_laplacian = least_laplacian,
-             .border = border},
-            workspace, [](int, int, int) { return std::size_t{0}; }, respond);
+        detail::search_scale_selected(
+            space, selection(), octave, first, end, workspace, worker, found,
+            [](int, int) { return std::size_t{0}; }, respond);
+    }
+    /// @brief See RowDetector.
+    void finish(std::vector<Feature>& features, Workspace& workspace) const {
+        detail::drop_scale_selected(features, workspace);
     }
 
 private:
+    [[nodiscard]] detail::ScaleSelection selection() const {
+        return {.first_level = 1,
+                .scale_offset = 0,
+                .scale_tolerance = scale_tolerance,
+                .threshold = threshold,
+                .least_laplacian = least_laplacian,
+                .border = border};
+    }
+
     static void determinant(const float* above, const float* here, const float* below, int width,
                             float sigma4, float* __restrict out) {
         for (int x = 1; x < width - 1; ++x) {

@@ -16,17 +16,17 @@
 
 namespace ism {
 
-/// @brief Leaves at most `count` of the features, strong ones and such that they cover the image evenly, in
-/// the order they came in: the image (width × height pixels) is cut into cells which take turns giving their
-/// strongest.
+/// @brief Keeps at most `count` features, strong and evenly spread over the image, in their order: the image
+/// (width × height pixels) is cut into cells which take turns giving their strongest.
 inline void keep_strongest_evenly(std::vector<Feature>& features, std::size_t count, int width, int height,
                                   Workspace& workspace) {
     if (features.size() <= count) return;
     const double area = std::max(1.0, double(width) * height);
     const double side = std::sqrt(area / std::max(1.0, double(count) / 8));
     const double columns = std::floor(width / side) + 1;
-    const auto cell = workspace.numbers(0, features.size()), order = workspace.numbers(1, features.size());
-    const auto turn = workspace.numbers(2, features.size());
+    const auto cell = workspace.numbers(Scratch::cell, features.size());
+    const auto order = workspace.numbers(Scratch::order, features.size());
+    const auto turn = workspace.numbers(Scratch::turn, features.size());
     for (std::size_t i = 0; i < features.size(); ++i) {
         const double column = std::clamp(std::floor(double(features[i].x) / side), 0.0, columns - 1);
         cell[i] = std::uint32_t(std::max(0.0, std::floor(double(features[i].y) / side)) * columns + column);

@@ -14,6 +14,8 @@
 
 #include "ism/feature/feature.hpp"
 #include "ism/feature/local_maxima.hpp"
+#include "ism/feature/range.hpp"
+#include "ism/feature/row_detector.hpp"
 #include "ism/feature/scale_space.hpp"
 #include "ism/feature/workspace.hpp"
 
@@ -21,11 +23,12 @@ namespace ism::detail {
 
 /// Normalised Laplacian σ²·(Lxx + Lyy) at (x, y), pixels of the octave, half a level above `layer`: as the
 /// heat equation has it, the difference of the two levels over the logarithm of their ratio. Between the
-/// pixels a quadratic. Layers beyond the octave are taken from the neighbouring one; NaN where there is none.
+/// pixels a quadratic. Layers beyond the octave are taken from the one that has them; NaN where there is
+/// none.
 [[nodiscard]] inline float laplacian(const ScaleSpace& space, int octave, int layer, float x, float y) {
     const int levels_an_octave = space.levels_per_octave();
-    if (layer < 0) octave -= 1, layer += levels_an_octave, x *= 2, y *= 2;
-    if (layer + 1 >= space.levels()) octave += 1, layer -= levels_an_octave, x /= 2, y /= 2;
+    for (; layer < 0; --octave) layer += levels_an_octave, x *= 2, y *= 2;
+    for (; layer + 1 >= space.levels(); ++octave) layer -= levels_an_octave, x /= 2, y /= 2;
     if (octave < 0 || octave >= space.octaves()) return std::numeric_limits<float>::quiet_NaN();
     const ImageView<const float> fine = space.level(octave, layer), coarse = space.level(octave, layer + 1);
     const int cx = std::clamp(int(std::lround(x)), 1, fine.width() - 2);
@@ -63,8 +66,8 @@ namespace ism::detail {
 /// What Harris- and Hessian-Laplace share: which levels give the response, where its scale is looked for.
 struct ScaleSelection {
     int first_level = 0;          ///< of the S levels of each octave whose response is searched
-    float scale_offset = 0;       ///< the Laplacian is looked at so many levels further
-    float scale_tolerance = 0.5;  ///< its extremum lies at most so many octaves from there
+    float scale_offset = 0;       ///< levels from the one searched to where the Laplacian is evaluated
+    float scale_tolerance = 0.5;  ///< octaves from there to its extremum, at most
     float threshold = 0;          ///< least response
     float least_laplacian = 0;    ///< least |normalised Laplacian|
     int border = 5;               ///< pixels of the octave without features along the edge
@@ -89,45 +92,54 @@ inline void keep_maxima(const ScaleSpace& space, const ScaleSelection& selection
         }
 }
 
-inline constexpr int band_rows = 32;
+/// Validates what the options of Harris- and Hessian-Laplace have in common.
+inline void check_scale_selection(float least_laplacian, float scale_tolerance, int border) {
+    expect_range("least_laplacian", least_laplacian, 0.0f, max_threshold);
+    expect_range("scale_tolerance (octaves)", scale_tolerance, 0.01f, 1.0f);
+    expect_range("border (pixels)", border, 0, max_border);
+}
 
-/// Maxima in the plane of a response whose scale is characteristic. `respond(octave, level, first, end, out,
-/// memory)` writes the response of the rows first … end − 1 of a level into the rows of `out`;
-/// `memory_for(octave, level, rows)` says how many numbers it works with.
+/// The reach of search_scale_selected(), without that of the response itself.
+[[nodiscard]] inline SearchReach scale_selection_reach(const ScaleSpace& space,
+                                                       const ScaleSelection& selection) {
+    const int levels = space.levels_per_octave();
+    const float tolerance = selection.scale_tolerance * float(levels);
+    const float finest = float(selection.first_level) + selection.scale_offset;
+    SearchReach reach{.rows = 8};  // a pixel and a half here is six pixels two octaves finer
+    int lowest = int(std::ceil(finest - tolerance)) - 2;
+    int highest = int(std::floor(finest + float(levels - 1) + tolerance)) + 1, up = 0;
+    for (; lowest < 0; ++reach.octaves) lowest += levels;
+    for (; highest + 1 >= space.levels(); ++up) highest -= levels;
+    reach.octaves = std::max(reach.octaves, up);
+    return reach;
+}
+
+/// Appends the maxima in the plane of a response whose scale is characteristic, of the rows first … end − 1
+/// of an octave. `respond(level, first, end, out, memory)` writes the response of rows of a level into the
+/// rows of `out`; `memory_for(level, rows)` gives the scratch floats it needs.
 template <class MemoryFor, class Respond>
-requires std::invocable<MemoryFor, int, int, int> &&
-    std::invocable<Respond, int, int, int, int, ImageView<float>, std::span<float>>
-[[nodiscard]] std::vector<Feature> scale_selected_maxima(const ScaleSpace& space,
-                                                         const ScaleSelection& selection,
-                                                         Workspace& workspace, const MemoryFor& memory_for,
-                                                         const Respond& respond) {
-    const int border = std::max(2, selection.border);
-    const auto bands_of = [&](int octave) {
-        const ImageView<const float> level = space.level(octave, 0);
-        const int rows = level.width() > 2 * border ? level.height() - 2 * border : 0;
-        return std::size_t(std::max(0, (rows + band_rows - 1) / band_rows));
-    };
-    const std::size_t levels = std::size_t(space.levels_per_octave());
-    std::size_t tasks = 0;
-    for (int octave = 0; octave < space.octaves(); ++octave) tasks += levels * bands_of(octave);
-    const auto found = workspace.lists(workspace.pool().size());
-    workspace.pool().for_each(tasks, [&](std::size_t task, unsigned worker) {
-        int octave = 0;
-        std::size_t part = task;
-        for (; part >= levels * bands_of(octave); ++octave) part -= levels * bands_of(octave);
-        const int level = selection.first_level + int(part / bands_of(octave));
-        const int width = space.level(octave, 0).width(), height = space.level(octave, 0).height();
-        const int first = border + int(part % bands_of(octave)) * band_rows;
-        const int end = std::min(first + band_rows, height - border), rows = end - first + 2;
-        const std::size_t size = std::size_t(width) * std::size_t(rows);
-        const auto memory = workspace.rows(worker, size + memory_for(octave, level, rows));
+requires std::invocable<MemoryFor, int, int> &&
+    std::invocable<Respond, int, int, int, ImageView<float>, std::span<float>>
+void search_scale_selected(const ScaleSpace& space, const ScaleSelection& selection, int octave, int first,
+                           int end, Workspace& workspace, unsigned worker, std::vector<Feature>& found,
+                           const MemoryFor& memory_for, const Respond& respond) {
+    const int border = std::max(2, selection.border), width = space.level(octave, 0).width();
+    first = std::max(first, border), end = std::min(end, space.level_height(octave) - border);
+    if (first >= end || width <= 2 * border) return;
+    const int rows = end - first + 2;
+    const std::size_t size = std::size_t(width) * std::size_t(rows);
+    for (int i = 0; i < space.levels_per_octave(); ++i) {
+        const int level = selection.first_level + i;
+        const auto memory = workspace.rows(worker, size + memory_for(level, rows));
         const ImageView<float> response(memory.data(), width, rows, width);
-        respond(octave, level, first - 1, end + 1, response, memory.subspan(size));
-        keep_maxima(space, selection, octave, level, first, response, found[worker]);
-    });
-    std::vector<Feature> all = in_order(found, workspace);
-    drop_duplicates(all, 0.5f, std::exp2(0.5f), workspace);
-    return all;
+        respond(level, first - 1, end + 1, response, memory.subspan(size));
+        keep_maxima(space, selection, octave, level, first, response, found);
+    }
+}
+
+/// Leaves the strongest of features that are less than half a scale and half an octave apart.
+inline void drop_scale_selected(std::vector<Feature>& features, Workspace& workspace) {
+    drop_duplicates(features, 0.5f, std::exp2(0.5f), workspace);
 }
 
 }  // namespace ism::detail

@@ -85,8 +85,10 @@ struct SubPixel {
 /// by less than `ratio`; the others stay in order.
 inline void drop_duplicates(std::vector<Feature>& features, float radius, float ratio, Workspace& workspace) {
     const std::size_t count = features.size();
-    const auto by_y = workspace.numbers(0, count), place = workspace.numbers(1, count);
-    const auto by_strength = workspace.numbers(2, count), dropped = workspace.numbers(3, count);
+    const auto by_y = workspace.numbers(Scratch::order, count);
+    const auto place = workspace.numbers(Scratch::place, count);
+    const auto by_strength = workspace.numbers(Scratch::by_strength, count);
+    const auto dropped = workspace.numbers(Scratch::dropped, count);
     std::iota(by_y.begin(), by_y.end(), 0u);
     std::iota(by_strength.begin(), by_strength.end(), 0u);
     std::fill(dropped.begin(), dropped.end(), 0u);

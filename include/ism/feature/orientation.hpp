@@ -4,15 +4,19 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "ism/feature/for_each_feature.hpp"
 #include "ism/feature/gradient.hpp"
 #include "ism/feature/local_maxima.hpp"
+#include "ism/feature/range.hpp"
 #include "ism/feature/scale_space.hpp"
 #include "ism/feature/workspace.hpp"
 
@@ -22,8 +26,16 @@ namespace ism {
 struct OrientationOptions {
     float window = 1.5f;      ///< deviation of the Gaussian window, in units of the feature's scale
     float peak_ratio = 0.8f;  ///< a further direction counts from this share of the strongest on
-    int max_peaks = 4;        ///< at most so many directions a feature
+    int max_peaks = 4;        ///< at most this many directions a feature
 };
+
+/// @brief Validates `options`.
+/// @throws Error where one is out of range.
+inline void check(const OrientationOptions& options) {
+    detail::expect_range("orientation window (scales)", options.window, 0.1f, 16.0f);
+    detail::expect_range("orientation peak_ratio", options.peak_ratio, 0.01f, 1.0f);
+    detail::expect_range("orientation max_peaks", options.max_peaks, 1, 18);
+}
 
 namespace detail {
 
@@ -36,8 +48,8 @@ using DirectionHistogram = std::array<float, direction_bins>;
                                                             float sigma, float window) {
     constexpr float per_radian = direction_bins / (2 * std::numbers::pi_v<float>);
     const float deviation = window * sigma, reach = 3 * deviation;
-    const int y0 = int(std::max(1.0f, std::ceil(y - reach)));
-    const int y1 = int(std::min(float(image.height() - 2), std::floor(y + reach)));
+    const int y0 = int(std::min(float(image.height()), std::max(1.0f, std::ceil(y - reach))));
+    const int y1 = int(std::max(0.0f, std::min(std::floor(y + reach), float(image.height() - 2))));
     // from −π to π, and two bins more for what comes after π
     std::array<float, direction_bins + 2> histogram{};
     GradientBatch batch;
@@ -62,8 +74,9 @@ using DirectionHistogram = std::array<float, direction_bins>;
     };
     for (int row = y0; row <= y1; ++row) {
         const float dy = float(row) - y, half = std::sqrt(std::max(0.0f, reach * reach - dy * dy));
-        const int x1 = int(std::min(float(image.width() - 2), std::floor(x + half)));
-        for (int first = int(std::max(1.0f, std::ceil(x - half))); first <= x1;) {
+        const int x1 = int(std::max(0.0f, std::min(std::floor(x + half), float(image.width() - 2))));
+        const float x0 = std::min(float(image.width()), std::max(1.0f, std::ceil(x - half)));
+        for (int first = int(x0); first <= x1;) {
             const std::size_t count =
                 std::min(std::size_t(x1 - first + 1), GradientBatch::capacity - batch.count);
             batch.add_row(image, first, row, count, x, y);
@@ -120,33 +133,34 @@ struct Directions {
 /// several are almost as strong the feature is repeated, one after the other, strongest first. A feature
 /// without any gradient around it stays upright.
 /// @throws Error where an option is out of range.
-[[nodiscard]] inline std::vector<Feature> assign_orientations(const ScaleSpace& space,
+[[nodiscard]] inline std::vector<Feature> assign_orientations(ScaleSpace& space,
                                                               std::span<const Feature> features,
                                                               Workspace& workspace,
                                                               const OrientationOptions& options = {}) {
-    expect(options.window > 0, "orientation window (scales)", "a positive number", options.window);
-    expect(options.peak_ratio > 0 && options.peak_ratio <= 1, "orientation peak_ratio", "above 0, up to 1",
-           options.peak_ratio);
-    expect(options.max_peaks >= 1, "orientation max_peaks", "1 or more", options.max_peaks);
-    constexpr std::size_t features_per_task = 64;
-    const auto parts = workspace.lists((features.size() + features_per_task - 1) / features_per_task);
-    workspace.pool().for_each(parts.size(), [&](std::size_t task, unsigned) {
-        const std::size_t first = task * features_per_task;
-        for (const Feature& f :
-             features.subspan(first, std::min(features_per_task, features.size() - first))) {
+    check(options);
+    const auto most = std::size_t(options.max_peaks);
+    const auto counts = workspace.numbers(Scratch::directions, features.size());
+    const auto angles = workspace.numbers(Scratch::angles, features.size() * most);
+    detail::for_each_feature(
+        space, features, 3 * options.window, [](const Feature& f) { return f.scale; }, workspace,
+        [&](std::size_t i) {
+            const Feature& f = features[i];
             const auto [image, step] = space.sampling(f.scale);
             const detail::Directions directions = detail::dominant_directions(
                 detail::direction_histogram(image, f.x / step, f.y / step, f.scale / step, options.window),
                 options);
-            if (directions.count == 0) parts[task].push_back(f);
-            for (std::size_t i = 0; i < directions.count; ++i) {
-                parts[task].push_back(f);
-                parts[task].back().angle = directions.angle[i];
-            }
-        }
-    });
+            counts[i] = std::uint32_t(directions.count);
+            for (std::size_t k = 0; k < directions.count; ++k)
+                angles[i * most + k] = std::bit_cast<std::uint32_t>(directions.angle[k]);
+        });
     std::vector<Feature> oriented = workspace.empty_list();
-    for (const auto& part : parts) oriented.insert(oriented.end(), part.begin(), part.end());
+    for (std::size_t i = 0; i < features.size(); ++i) {
+        if (counts[i] == 0) oriented.push_back(features[i]);
+        for (std::size_t k = 0; k < counts[i]; ++k) {
+            oriented.push_back(features[i]);
+            oriented.back().angle = std::bit_cast<float>(angles[i * most + k]);
+        }
+    }
     return oriented;
 }
 

@@ -5,28 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include "ism/core/aligned.hpp"
 #include "ism/core/image.hpp"
 #include "ism/feature/blur.hpp"
+#include "ism/feature/brightness.hpp"
+#include "ism/feature/double_rows.hpp"
 #include "ism/feature/row_sweep.hpp"
+#include "ism/feature/row_window.hpp"
+#include "ism/feature/scale_space_options.hpp"
 #include "ism/feature/workspace.hpp"
 
 namespace ism {
-
-/// @brief How a scale space is laid out. Deviations are in pixels.
-struct ScaleSpaceOptions {
-    int levels_per_octave = 3;        ///< S ≥ 1
-    float base_sigma = 1.6f;          ///< of an octave's first level, in pixels of that level
-    float input_sigma = 0.5f;         ///< blur the image comes with, in its pixels
-    bool double_first_octave = true;  ///< begin with the image at twice its size
-    int max_octaves = 16;             ///< at most so many
-    int smallest_side = 8;            ///< no octave's shorter side, in its pixels, is below this
-};
 
 /// @brief Where a level lies in a scale space.
 struct LevelIndex {
@@ -38,48 +30,19 @@ struct LevelIndex {
 /// deviation sigma(o, i) = base_sigma · step(o) · 2^(i/S) in pixels of the input image, where step(o) is the
 /// input pixels a pixel of the octave: 0.5 in a doubled octave, then 1, 2, 4 …
 /// Pixel (x, y) of octave o lies at (x · step(o), y · step(o)) in the input image.
+///
+/// Either all of it is made at once by build(), or begin() is followed by calls of advance(), each of which
+/// makes further rows of all octaves: then the finest octaves hold a band of rows only.
 class ScaleSpace {
 public:
     /// @brief Fills the scale space from `image` (brightness, at least 16×16), reusing its memory. The result
     /// is the same for any workspace.
     /// Where the image is blurrier than the first level should be, it is taken as it is.
-    /// @throws Error where the image is smaller or an option out of range.
+    /// @throws Error where the image is smaller, check_brightness() refuses it or an option is out of range.
     void build(ImageView<const float> image, const ScaleSpaceOptions& options, Workspace& workspace) {
-        build(image, options, workspace, 0, [](int, int, int, unsigned) {});
-    }
-
-    /// @brief The same, and calls `watch(octave, first, end, worker)` for rows of the octave, on many
-    /// threads, as soon as all levels have them and `reach` rows above and below: while they are in the
-    /// cache.
-    template <std::invocable<int, int, int, unsigned> Watch>
-    void build(ImageView<const float> image, const ScaleSpaceOptions& options, Workspace& workspace,
-               int reach, const Watch& watch) {
-        check(image, options);
-        options_ = options;
-        lay_out(image.width(), image.height());
-        // stages: the doubled image, the levels, the watch
-        const std::size_t stages = std::size_t(levels()) + 2;
-        std::array<std::span<const float>, detail::most_stages> kernels;
-        std::array<int, detail::most_stages> reaches{};
-        for (std::size_t stage = 2; stage + 1 < stages; ++stage)
-            kernels[stage] = workspace.kernel(missing_sigma(int(stage) - 1));
-        if (const double missing = missing_base_sigma(); missing > 0) kernels[1] = workspace.kernel(missing);
-        for (int o = 0; o < octaves(); ++o) {
-            for (std::size_t stage = 1; stage + 1 < stages; ++stage)
-                reaches[stage] = kernels[stage].empty() ? 0 : int(kernels[stage].size()) - 1;
-            reaches[stages - 1] = reach;
-            const auto make = [&](std::size_t stage, int first, int end, unsigned worker) {
-                if (stage + 1 == stages)
-                    watch(o, first, end, worker);
-                else if (stage == 0)
-                    make_doubled(image, o, first, end, worker, workspace);
-                else
-                    make_level(image, o, int(stage) - 1, kernels[stage], first, end, worker, workspace);
-            };
-            detail::sweep_rows(workspace.pool(), octaves_[std::size_t(o)].height,
-                               std::span(reaches).first(stages), make);
-            kernels[1] = {};  // the first level of the next octave is there
-        }
+        check_brightness(image, workspace);
+        begin(image, options, workspace);
+        while (advance(workspace)) continue;
     }
 
     /// @brief The same with threads and memory of its own.
@@ -88,15 +51,62 @@ public:
         build(image, options, workspace);
     }
 
+    /// @brief Prepares for advance(); `image`, which check_brightness() has accepted, is to stay until all
+    /// rows are made. Where all levels take more than `max_bytes`, the finest octaves are held in bands, as
+    /// many as it takes for the others to fit into half of it.
+    /// @throws Error where the image is smaller than 16×16 or an option out of range.
+    void begin(ImageView<const float> image, const ScaleSpaceOptions& options, const Workspace& workspace,
+               std::size_t max_bytes = std::size_t(-1)) {
+        constexpr int longest = 1 << 16;
+        expect(image.width() >= 16 && image.height() >= 16, "image size", "at least 16x16", size_text(image));
+        expect(image.width() <= longest && image.height() <= longest, "image size", "at most 65536x65536",
+               size_text(image));
+        check(options);
+        options_ = options, image_ = image;
+        lay_out(max_bytes);
+        rows_at_once_ = std::clamp(128 * int(workspace.threads()), 256, 1024);
+    }
+
+    /// @brief Makes further rows of all octaves, as far as they follow from a band of the first one; all rows
+    /// where no octave is held in bands. False where there was none to make.
+    bool advance(Workspace& workspace) {
+        const int height = level_height(0), before = octaves_[0].swept;
+        if (before == height) return false;
+        sweep(0, banded_ > 0 ? std::min(height, before + rows_at_once_) : height, workspace);
+        for (int o = 1; o < octave_count_; ++o) {
+            const int rows = rows_made(o - 1, options_.levels_per_octave);
+            sweep(o, rows == level_height(o - 1) ? level_height(o) : (rows + 1) / 2, workspace);
+        }
+        return true;
+    }
+
+    /// @brief Octaves held in bands are made from their first row on again by advance(); the others stay.
+    void rewind() {
+        for (int o = 0; o < banded_; ++o) {
+            Octave& octave = octaves_[std::size_t(o)];
+            octave.swept = octave.wanted = 0;
+            octave.levels.rewind(), octave.halves.rewind(), octave.doubled.rewind();
+        }
+    }
+
+    /// @brief How many octaves, the finest ones, are held in bands.
+    [[nodiscard]] int banded_octaves() const { return banded_; }
+    /// @brief Number of rows of an octave that all its levels have. In an octave held in bands, rows before
+    /// the one last given to forget() may be gone.
+    [[nodiscard]] int rows_ready(int octave) const { return rows_made(octave, levels() - 1); }
+    /// @brief Rows of an octave before `row` will not be looked at.
+    void forget(int octave, int row) { octaves_[std::size_t(octave)].wanted = row; }
+
     /// @brief Number of octaves; 0 before build().
     [[nodiscard]] int octaves() const { return octave_count_; }
     /// @brief Levels in each octave, S + 3.
     [[nodiscard]] int levels() const { return options_.levels_per_octave + 3; }
     [[nodiscard]] int levels_per_octave() const { return options_.levels_per_octave; }
-    [[nodiscard]] const ScaleSpaceOptions& options() const { return options_; }
     /// @brief Size of the input image.
-    [[nodiscard]] int width() const { return width_; }
-    [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] int width() const { return image_.width(); }
+    [[nodiscard]] int height() const { return image_.height(); }
+    /// @brief Rows of the levels of an octave.
+    [[nodiscard]] int level_height(int octave) const { return octaves_[std::size_t(octave)].height; }
 
     /// @brief Input pixels a pixel of the octave.
     [[nodiscard]] float step(int octave) const {
@@ -111,15 +121,11 @@ public:
 
     /// @brief Brightness of a level.
     [[nodiscard]] ImageView<const float> level(int octave, int i) const {
-        const Octave& o = octaves_[std::size_t(octave)];
-        return {o.pixels.data() + o.plane() * std::size_t(i), o.width, o.height, o.stride};
+        return octaves_[std::size_t(octave)].levels.view(i);
     }
-
     /// @brief Every second pixel of the rows and columns of a level i = 1 … S, pixel (0, 0) the first.
     [[nodiscard]] ImageView<const float> halved(int octave, int i) const {
-        const Octave& o = octaves_[std::size_t(octave)];
-        return {o.halves.data() + o.half_plane() * std::size_t(i - 1), (o.width + 1) / 2, (o.height + 1) / 2,
-                o.half_stride()};
+        return octaves_[std::size_t(octave)].halves.view(i - 1);
     }
 
     /// @brief A level or half of one, and input pixels a pixel of it.
@@ -152,75 +158,98 @@ public:
 
 private:
     struct Octave {
-        int width = 0, height = 0;
-        std::ptrdiff_t stride = 0;
-        AlignedVector<float> pixels, halves;  // levels one after another
-        [[nodiscard]] std::size_t plane() const { return std::size_t(stride) * std::size_t(height); }
-        [[nodiscard]] std::ptrdiff_t half_stride() const { return whole_lines((width + 1) / 2); }
-        [[nodiscard]] std::size_t half_plane() const {
-            return std::size_t(half_stride()) * std::size_t((height + 1) / 2);
-        }
+        int height = 0;
+        detail::RowWindow levels, halves, doubled;
+        int swept = 0;   // rows given of what level 0 is made of
+        int wanted = 0;  // rows before are not looked at from outside
     };
 
-    static void check(ImageView<const float> image, const ScaleSpaceOptions& options) {
-        expect(image.width() >= 16 && image.height() >= 16, "image size", "at least 16x16", size_text(image));
-        expect(options.levels_per_octave >= 1 && options.levels_per_octave <= 32, "levels_per_octave",
-               "1 to 32", options.levels_per_octave);
-        expect(options.base_sigma >= 0.5f && options.base_sigma <= 16, "base_sigma (pixels)", "0.5 to 16",
-               options.base_sigma);
-        expect(std::isfinite(options.input_sigma) && options.input_sigma >= 0, "input_sigma (pixels)",
-               "0 or more", options.input_sigma);
-        expect(options.max_octaves >= 1, "max_octaves", "1 or more", options.max_octaves);
-        expect(options.smallest_side >= 2, "smallest_side (pixels)", "2 or more", options.smallest_side);
-    }
-
-    void lay_out(int width, int height) {
-        width_ = width, height_ = height, octave_count_ = 0;
-        int w = options_.double_first_octave ? 2 * width - 1 : width;
-        int h = options_.double_first_octave ? 2 * height - 1 : height;
-        for (; octave_count_ < options_.max_octaves; ++octave_count_, w = (w + 1) / 2, h = (h + 1) / 2) {
-            if (octave_count_ > 0 && std::min(w, h) < options_.smallest_side) break;
-            if (octaves_.size() == std::size_t(octave_count_)) octaves_.emplace_back();
-            Octave& o = octaves_[std::size_t(octave_count_)];
-            o.width = w, o.height = h, o.stride = whole_lines(w);
-            o.pixels.resize(std::size_t(levels()) * o.plane());
-            o.halves.resize(std::size_t(options_.levels_per_octave) * o.half_plane());
-            if (octave_count_ == 0 && options_.double_first_octave) doubled_.resize(o.plane());
+    void lay_out(std::size_t max_bytes) {
+        const bool doubled = options_.double_first_octave;
+        std::array<int, max_scale_octaves> width, height;
+        std::array<double, max_scale_octaves> bytes;
+        double all_bytes = 0;
+        int w = doubled ? 2 * image_.width() - 1 : image_.width();
+        int h = doubled ? 2 * image_.height() - 1 : image_.height(), count = 0;
+        for (; count < options_.max_octaves; ++count, w = (w + 1) / 2, h = (h + 1) / 2) {
+            if (count > 0 && std::min(w, h) < options_.smallest_side) break;
+            const auto o = std::size_t(count);
+            const double planes = levels() + 0.25 * levels_per_octave() + (doubled && o == 0 ? 1 : 0);
+            width[o] = w, height[o] = h;
+            all_bytes += bytes[o] = planes * sizeof(float) * w * h;
+        }
+        banded_ = 0, octave_count_ = count;
+        if (all_bytes > double(max_bytes))
+            for (double rest = all_bytes; banded_ < count && rest > double(max_bytes) / 2; ++banded_)
+                rest -= bytes[std::size_t(banded_)];
+        if (octaves_.size() < std::size_t(count)) octaves_.resize(std::size_t(count));
+        for (int i = 0; i < count; ++i) {
+            const auto hold = i < banded_ ? &detail::RowWindow::hold_some : &detail::RowWindow::hold_all;
+            Octave& o = octaves_[std::size_t(i)];
+            w = width[std::size_t(i)], h = height[std::size_t(i)];
+            o.height = h, o.swept = o.wanted = 0;
+            (o.levels.*hold)(levels(), w, h);
+            (o.halves.*hold)(levels_per_octave(), (w + 1) / 2, (h + 1) / 2);
+            if (doubled && i == 0) (o.doubled.*hold)(1, w, h);
         }
     }
 
-    [[nodiscard]] ImageView<float> plane(int octave, int i) {
+    /// Rows of a level that can be made from the rows given.
+    [[nodiscard]] int rows_made(int octave, int level) const {
+        const Octave& o = octaves_[std::size_t(octave)];
+        if (o.swept == o.height) return o.height;
+        int lag = 0;
+        for (int i = 0; i <= level; ++i) lag += kernel_radius(detail::missing_sigma(options_, octave, i));
+        return std::max(0, o.swept - lag);
+    }
+
+    /// Makes what follows from the rows up to end − 1 of what level 0 of the octave is made of.
+    void sweep(int octave, int end, Workspace& workspace) {
         Octave& o = octaves_[std::size_t(octave)];
-        return {o.pixels.data() + o.plane() * std::size_t(i), o.width, o.height, o.stride};
-    }
-
-    [[nodiscard]] ImageView<float> half_plane(int octave, int i) {
-        Octave& o = octaves_[std::size_t(octave)];
-        return {o.halves.data() + o.half_plane() * std::size_t(i - 1), (o.width + 1) / 2, (o.height + 1) / 2,
-                o.half_stride()};
-    }
-
-    /// What blur makes a level out of the one before it.
-    [[nodiscard]] double missing_sigma(int level) const {
-        const double octaves = 2.0 / options_.levels_per_octave;
-        return options_.base_sigma * std::sqrt(std::exp2(level * octaves) - std::exp2((level - 1) * octaves));
-    }
-
-    /// What blur makes the first level out of the image, doubled or not; 0 where it needs none.
-    [[nodiscard]] double missing_base_sigma() const {
-        const double have = double(options_.input_sigma) * (options_.double_first_octave ? 2 : 1);
-        const double missing = double(options_.base_sigma) * options_.base_sigma - have * have;
-        return missing > 1e-3 ? std::sqrt(missing) : 0;
+        if (end <= o.swept) return;
+        // stages: the doubled image, the levels
+        const std::size_t stages = std::size_t(levels()) + 1;
+        std::array<std::span<const float>, detail::most_stages> kernels;
+        std::array<int, detail::most_stages> reaches{};
+        int lag = 0, largest = 0;
+        for (std::size_t stage = 1; stage < stages; ++stage) {
+            const double missing = detail::missing_sigma(options_, octave, int(stage) - 1);
+            if (missing > 0) kernels[stage] = workspace.kernel(missing);
+            reaches[stage] = kernel_radius(missing);
+            lag += reaches[stage], largest = std::max(largest, reaches[stage]);
+        }
+        if (octave < banded_) {
+            int needed = std::min(o.wanted, o.swept - lag - largest);
+            if (octave + 1 < octave_count_)
+                needed = std::min(needed, 2 * octaves_[std::size_t(octave) + 1].swept);
+            needed = std::max(0, needed / 2 * 2);
+            o.levels.slide(needed, o.swept, end, workspace.pool());
+            o.halves.slide(needed / 2, (o.swept + 1) / 2, (end + 1) / 2, workspace.pool());
+            if (octave == 0 && options_.double_first_octave)
+                o.doubled.slide(needed, o.swept, end, workspace.pool());
+        }
+        const auto make = [&](std::size_t stage, int first, int last, unsigned worker) {
+            if (stage > 0)
+                make_level(octave, int(stage) - 1, kernels[stage], first, last, worker, workspace);
+            else if (octave == 0 && options_.double_first_octave)
+                detail::double_rows(image_, first, last,
+                                    workspace.rows(worker, detail::double_scratch(image_.width())).data(),
+                                    o.doubled.view(0));
+        };
+        detail::sweep_rows(workspace.pool(), o.swept, end, o.height, std::span(reaches).first(stages), make);
+        o.swept = end;
     }
 
     /// Rows of a level from the one before it, and of its half.
-    void make_level(ImageView<const float> image, int octave, int i, std::span<const float> kernel, int first,
-                    int end, unsigned worker, Workspace& workspace) {
-        if (octave == 0 && options_.double_first_octave) image = doubled_plane();
+    void make_level(int octave, int i, std::span<const float> kernel, int first, int end, unsigned worker,
+                    Workspace& workspace) {
+        Octave& o = octaves_[std::size_t(octave)];
         const ImageView<const float> from = i > 0        ? level(octave, i - 1)
                                             : octave > 0 ? halved(octave - 1, options_.levels_per_octave)
-                                                         : image;
-        const ImageView<float> to = plane(octave, i);
+                                            : options_.double_first_octave
+                                                ? ImageView<const float>(o.doubled.view(0))
+                                                : image_;
+        const ImageView<float> to = o.levels.view(i);
         if (kernel.empty()) {
             for (int y = first; y < end; ++y) std::copy_n(from.row(y).data(), to.width(), to.row(y).data());
         } else {
@@ -230,7 +259,7 @@ private:
                               first, end, scratch.data(), [&](int y) { return to.row(y).data(); });
         }
         if (i < 1 || i > options_.levels_per_octave) return;
-        const ImageView<float> half = half_plane(octave, i);
+        const ImageView<float> half = o.halves.view(i - 1);
         for (int y = (first + 1) / 2; 2 * y < end; ++y) {
             const float* row = to.row(2 * y).data();
             float* half_row = half.row(y).data();
@@ -238,44 +267,10 @@ private:
         }
     }
 
-    /// Rows of the doubled image. Pixel 2x is pixel x of the image. Those between come from four neighbours
-    /// by the weights (−1, 9, 9, −1)/16, whose variance is 0: unlike means they add no blur.
-    void make_doubled(ImageView<const float> image, int octave, int first, int end, unsigned worker,
-                      Workspace& workspace) {
-        if (octave > 0 || !options_.double_first_octave) return;
-        const int width = image.width(), last = image.height() - 1;
-        const auto between = [](float a, float b, float c, float d) {
-            return 0.5625f * (b + c) - 0.0625f * (a + d);
-        };
-        const auto source = [&](int y) { return image.row(std::clamp(y, 0, last)).data(); };
-        const ImageView<float> out = doubled_plane();
-        float* __restrict row = workspace.rows(worker, std::size_t(width) + 3).data() + 1;
-        for (int y = first; y < end; ++y) {
-            const float *a = source(y / 2 - 1), *b = source(y / 2), *c = source(y / 2 + 1),
-                        *d = source(y / 2 + 2);
-            if (y % 2 == 0)
-                std::copy_n(b, width, row);
-            else
-                for (int x = 0; x < width; ++x) row[x] = between(a[x], b[x], c[x], d[x]);
-            row[-1] = row[0], row[width] = row[width + 1] = row[width - 1];
-            float* __restrict to = out.row(y).data();
-            for (int x = 0; x < width - 1; ++x) {
-                to[2 * x] = row[x];
-                to[2 * x + 1] = between(row[x - 1], row[x], row[x + 1], row[x + 2]);
-            }
-            to[2 * width - 2] = row[width - 1];
-        }
-    }
-
-    [[nodiscard]] ImageView<float> doubled_plane() {
-        const Octave& o = octaves_[0];
-        return {doubled_.data(), o.width, o.height, o.stride};
-    }
-
     ScaleSpaceOptions options_;
-    int width_ = 0, height_ = 0, octave_count_ = 0;
+    ImageView<const float> image_;
+    int octave_count_ = 0, banded_ = 0, rows_at_once_ = 0;
     std::vector<Octave> octaves_;
-    AlignedVector<float> doubled_;
 };
 
 }  // namespace ism

@@ -39,8 +39,8 @@ public:
           turn_(std::remainder(angle, 2 * std::numbers::pi_v<float>) * per_radian) {}
 
     void histogram(std::span<float, sift_size> out) {
-        const int y1 = last_at(y_, image_.height());
-        for (int y = first_at(y_); y <= y1; ++y) add_row(y);
+        const int y1 = last_at(y_, reach_, image_.height());
+        for (int y = first_at(y_, -reach_, image_.height()); y <= y1; ++y) add_row(y);
         share_out();
         for (int v = 0; v < sift_cells; ++v)
             for (int u = 0; u < sift_cells; ++u) {
@@ -57,12 +57,13 @@ private:
     static constexpr float per_radian = sift_angles / (2 * std::numbers::pi_v<float>);
     static constexpr float middle = (sift_cells + 1) * 0.5f;
 
-    /// The first and last pixel in reach along one axis, of those with a gradient.
-    [[nodiscard]] int first_at(float centre) const {
-        return int(std::clamp(std::ceil(centre - reach_), 1.0f, 1e6f));
+    /// The first and last pixel from centre + low to centre + high along one axis, of those with a gradient;
+    /// none where these are not numbers.
+    [[nodiscard]] static int first_at(float centre, float low, int side) {
+        return int(std::min(float(side), std::max(1.0f, std::ceil(centre + low))));
     }
-    [[nodiscard]] int last_at(float centre, int side) const {
-        return int(std::clamp(std::floor(centre + reach_), 0.0f, float(side - 2)));
+    [[nodiscard]] static int last_at(float centre, float high, int side) {
+        return int(std::max(0.0f, std::min(std::floor(centre + high), float(side - 2))));
     }
 
     /// Where on a row a coordinate start + slope · dx of the window lies within it.
@@ -81,8 +82,8 @@ private:
         float low = -reach_, high = reach_;
         narrow(sine_ * dy + middle, cosine_, low, high);
         narrow(cosine_ * dy + middle, -sine_, low, high);
-        const int last = std::min(last_at(x_, image_.width()), int(std::floor(x_ + high)));
-        for (int x = std::max(first_at(x_), int(std::ceil(x_ + low))); x <= last;) {
+        const int last = last_at(x_, high, image_.width());
+        for (int x = first_at(x_, low, image_.width()); x <= last;) {
             const std::size_t count =
                 std::min(std::size_t(last - x + 1), GradientBatch::capacity - batch_.count);
             batch_.add_row(image_, x, row, count, x_, y_);
@@ -93,15 +94,15 @@ private:
 
     void share_out() {
         batch_.make_polar();
-        // of a gradient: where it goes, and what goes there: to 2×2 cells and in each to two directions
+        // the histogram bin of each gradient and its trilinear shares: 2×2 cells, two directions in each
         alignas(64) std::array<std::int32_t, GradientBatch::capacity> place;
         alignas(64) std::array<GradientBatch::Numbers, 8> part;
         for (std::size_t k = 0; k < batch_.count; ++k) {
             const float dx = batch_.dx[k], dy = batch_.dy[k];
             const float across = cosine_ * dx + sine_ * dy, along = cosine_ * dy - sine_ * dx;
             const float value = batch_.magnitude[k] * small_exp(0.125f * (across * across + along * along));
-            // cells from −1 (half a cell before the first) to 4; +1 for the padding. Rounding may leave a
-            // place a hair outside, and what it gives a hair below 0.
+            // cells from −1 (half a cell before the first) to 4; +1 for the padding. Rounding may put a
+            // sample slightly outside, and its share slightly below 0.
             const float u = across + middle, v = along + middle;
             const int iu = std::min(std::max(int(u), 0), sift_cells);
             const int iv = std::min(std::max(int(v), 0), sift_cells);
@@ -119,7 +120,7 @@ private:
             part[6][k] = lr * (1 - ab), part[7][k] = lr * ab;
             place[k] = (iv * padded + iu) * bins + ib;
         }
-        // neighbours often go to the same place: two histograms, so that no sum waits for the one before it
+        // neighbours often share a bin: two histograms, so that no sum waits for the one before it
         for (std::size_t k = 0; k < batch_.count; ++k) {
             float* to = ((k & 1) == 0 ? even_.data() : odd_.data()) + place[k];
             to[0] += part[0][k], to[1] += part[1][k];
@@ -137,7 +138,7 @@ private:
     alignas(64) std::array<float, padded * padded * bins> even_{}, odd_{};
 };
 
-/// The sum of f(value), in eight parts, as a vector unit adds.
+/// The sum of f(value), in eight partial sums as SIMD lanes would hold them.
 template <class F>
 [[nodiscard]] float sum_of(std::span<const float, sift_size> row, const F& f) {
     std::array<float, 8> parts{};
@@ -166,10 +167,13 @@ struct Sift {
     static constexpr std::size_t dimension = detail::sift_size;
     static constexpr std::string_view name = "sift";
     static constexpr float support_radius = detail::sift_cell * detail::sift_cells / 2;
+    static constexpr float reach = 10.7f;  ///< half the diagonal of 5×5 cells, scales
     static constexpr double sq_length = 1;
 
+    [[nodiscard]] static float level_scale(const Feature& f) { return f.scale; }
+
     void describe(const ScaleSpace& space, const Feature& f, std::span<float, dimension> out) const {
-        const auto [image, step] = space.sampling(f.scale);
+        const auto [image, step] = space.sampling(level_scale(f));
         detail::SiftWindow(image, f.x / step, f.y / step, f.scale / step, f.angle).histogram(out);
         detail::normalise_sift(out);
     }
@@ -181,8 +185,10 @@ struct RootSift {
     using Scalar = float;
     static constexpr std::size_t dimension = Sift::dimension;
     static constexpr std::string_view name = "root-sift";
-    static constexpr float support_radius = Sift::support_radius;
+    static constexpr float support_radius = Sift::support_radius, reach = Sift::reach;
     static constexpr double sq_length = 1;
+
+    [[nodiscard]] static float level_scale(const Feature& f) { return Sift::level_scale(f); }
 
     void describe(const ScaleSpace& space, const Feature& f, std::span<float, dimension> out) const {
         Sift{}.describe(space, f, out);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -17,49 +20,77 @@
 
 namespace ism {
 
-/// @brief The threads and the memory that features are found with, lent from frame to frame: after the first
-/// frame of a size nothing is allocated any more. For one frame at a time.
+/// @brief What the scratch buffers of a Workspace are for: one number per feature.
+enum class Scratch : std::uint8_t {
+    order,        ///< features in another order
+    place,        ///< where a feature is in such an order
+    by_strength,  ///< features from strong to weak
+    dropped,      ///< whether a feature is left out
+    cell,         ///< of the image, in which a feature lies
+    turn,         ///< of a feature among those of its cell
+    octave,       ///< in which a feature's surroundings lie
+    directions,   ///< how many directions a feature has
+    angles,       ///< bits of these directions, several a feature
+    count         ///< how many there are of these
+};
+
+/// @brief Threads and memory for feature extraction, reused across frames: after the first frame of a size
+/// nothing is allocated. For one frame at a time.
 class Workspace {
 public:
-    /// @brief For so many threads, the caller's among them (0 = all the machine has).
+    /// @brief With this many threads, the caller's included (0 = all hardware threads).
     explicit Workspace(unsigned threads = 1)
         : own_(std::make_unique<ThreadPool>(threads)), pool_(own_.get()), rows_(pool_->size()) {}
 
     /// @brief With threads that others use too, between frames.
+    /// @param pool  has to stay as long as this
     explicit Workspace(ThreadPool& pool) : pool_(&pool), rows_(pool.size()) {}
 
     [[nodiscard]] ThreadPool& pool() { return *pool_; }
+    /// @brief Threads of the pool, the caller's among them.
+    [[nodiscard]] std::size_t threads() const { return pool_->size(); }
 
-    /// @brief `count` numbers for one worker of the pool, until it asks again; their values are open. The
-    /// first lies at the start of a cache line.
+    /// @brief Calls body(y) for y = 0 … rows − 1, on all threads.
+    template <std::invocable<int> Body>
+    void each_row(int rows, const Body& body) {
+        constexpr int rows_per_task = 32;
+        pool_->for_each(std::size_t(rows + rows_per_task - 1) / rows_per_task,
+                        [&](std::size_t task, unsigned) {
+                            const int first = int(task) * rows_per_task;
+                            for (int y = first; y < std::min(rows, first + rows_per_task); ++y) body(y);
+                        });
+    }
+
+    /// @brief Scratch of `count` floats for one worker of the pool, uninitialised, aligned to a cache line;
+    /// valid until that worker's next call.
     [[nodiscard]] std::span<float> rows(unsigned worker, std::size_t count) {
         AlignedVector<float>& own = rows_[worker];
         if (own.size() < count) own.resize(count);
         return {own.data(), count};
     }
 
-    /// @brief `count` empty lists, one for each task, until somebody asks again.
+    /// @brief `count` empty lists, valid until the next call.
     [[nodiscard]] std::span<std::vector<Feature>> lists(std::size_t count) {
         if (lists_.size() < count) lists_.resize(count);
         for (std::size_t i = 0; i < count; ++i) lists_[i].clear();
         return {lists_.data(), count};
     }
 
-    /// @brief `count` numbers of the which-th kind, until somebody asks for that kind again; values open.
-    [[nodiscard]] std::span<std::uint32_t> numbers(std::size_t which, std::size_t count) {
-        if (numbers_.size() <= which) numbers_.resize(which + 1);
-        if (numbers_[which].size() < count) numbers_[which].resize(count);
-        return {numbers_[which].data(), count};
+    /// @brief The scratch buffer `use` with `count` numbers, uninitialised; valid until the next call for it.
+    [[nodiscard]] std::span<std::uint32_t> numbers(Scratch use, std::size_t count) {
+        std::vector<std::uint32_t>& own = numbers_[std::size_t(use)];
+        if (own.size() < count) own.resize(count);
+        return {own.data(), count};
     }
 
-    /// @brief gaussian_kernel(sigma), kept from the first time on.
+    /// @brief gaussian_kernel(sigma), cached.
     [[nodiscard]] std::span<const float> kernel(double sigma) {
         for (const auto& [known, weights] : kernels_)
             if (known == sigma) return weights;
         return kernels_.emplace_back(sigma, gaussian_kernel(sigma)).second;
     }
 
-    /// @brief An empty list to give back as a result; its memory is that of a list returned by reuse().
+    /// @brief An empty list to return as a result; its memory comes from reuse().
     [[nodiscard]] std::vector<Feature> empty_list() {
         if (spare_.empty()) return {};
         std::vector<Feature> list = std::move(spare_.back());
@@ -67,13 +98,13 @@ public:
         list.clear();
         return list;
     }
-    /// @brief Takes back the memory of a list; of many that nobody asks for a few are kept.
+    /// @brief Takes back the memory of a list; a few unused ones are kept.
     void reuse(std::vector<Feature> list) {
         constexpr std::size_t most_spare = 4;
         if (spare_.size() < most_spare) spare_.push_back(std::move(list));
     }
 
-    /// @brief An image, of which reuse() gave back one of this size, if any did; its pixels are open.
+    /// @brief An image, from reuse() where one of this size is there; its pixels are uninitialised.
     [[nodiscard]] GrayImage image(int width, int height) {
         for (std::size_t i = 0; i < images_.size(); ++i)
             if (images_[i].width() == width && images_[i].height() == height) {
@@ -95,7 +126,7 @@ private:
     ThreadPool* pool_;
     std::vector<AlignedVector<float>> rows_;
     std::vector<std::vector<Feature>> lists_, spare_;
-    std::vector<std::vector<std::uint32_t>> numbers_;
+    std::array<std::vector<std::uint32_t>, std::size_t(Scratch::count)> numbers_;
     std::vector<GrayImage> images_;
     std::vector<std::pair<double, std::vector<float>>> kernels_;
 };

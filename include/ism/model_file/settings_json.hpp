@@ -14,6 +14,7 @@
 
 #include "ism/feature/feature_settings.hpp"
 #include "ism/io/json.hpp"
+#include "ism/io/paths.hpp"
 
 /// How features are found, as JSON.
 namespace ism::detail {
@@ -109,6 +110,7 @@ void each_extract_parameter(Options& options, Visit&& visit) {
     each_extract_parameter(settings.options, set);
     expect<FileError>(set.count == extraction.size(), lazy_text(place, ", extraction: number of parameters"),
                       set.count, extraction.size());
+    at_place(place + ", extraction", [&] { check(settings.options); });
     return settings;
 }
 

@@ -69,6 +69,7 @@ inline void check(const TrainingImage& image, std::size_t classes) {
 [[nodiscard]] inline TrainingImage mirrored(TrainingImage image) {
     const int width = image.frame.gray.width();
     image.frame.gray = mirrored(std::move(image.frame.gray));
+    image.frame.color = mirrored(std::move(image.frame.color));
     image.frame.depth_m = mirrored(std::move(image.frame.depth_m));
     if (image.frame.camera) image.frame.camera->cx = width - 1 - image.frame.camera->cx;
     for (LabelledObject& object : image.objects) {
