@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 
 # WAY is find_package or add_subdirectory: installs where needed, then configures, builds and runs tests/consumer/WAY.
 function(step what)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 
 # COMPILER, FLAGS, SOURCE, SCRATCH; GOOD=ON: the source compiles. Otherwise it fails with the text of its first
 # line, `// expect: text`, while a file with nothing but its #include lines compiles.
