@@ -51,6 +51,7 @@ function(ism_find_dependencies)
         endif()
     endforeach()
 
+    set(ism_missing ${missing} PARENT_SCOPE)
     if(missing AND NOT ism_FIND_QUIETLY)
         list(JOIN missing ", " missing)
         message(STATUS "ism: not found: ${missing} (only the headers that include them cannot be used)")
