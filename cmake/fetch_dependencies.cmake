@@ -3,6 +3,10 @@
 
 # Downloads what is not installed. Only their headers are used: none of their own build files is run.
 include(FetchContent)
+set(ism_timestamps "") # the argument is new in CMake 3.24, which warns where it is missing
+if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.24)
+    set(ism_timestamps DOWNLOAD_EXTRACT_TIMESTAMP ON)
+endif()
 
 function(ism_fetch package target url include_dir)
     if(TARGET ${target})
@@ -14,7 +18,7 @@ function(ism_fetch package target url include_dir)
     endif()
     string(TOLOWER ${package} name)
     message(STATUS "ism: downloading ${package}")
-    FetchContent_Declare(ism_${name} URL ${url} DOWNLOAD_EXTRACT_TIMESTAMP ON SOURCE_SUBDIR no_build_files)
+    FetchContent_Declare(ism_${name} URL ${url} ${ism_timestamps} SOURCE_SUBDIR no_build_files)
     FetchContent_MakeAvailable(ism_${name})
     add_library(${target} INTERFACE IMPORTED GLOBAL)
     target_include_directories(${target} SYSTEM INTERFACE "${ism_${name}_SOURCE_DIR}/${include_dir}")
@@ -30,7 +34,7 @@ if(NOT ISM_stb_INCLUDE_DIR)
     message(STATUS "ism: downloading stb")
     FetchContent_Declare(ism_stb_source SOURCE_DIR "${CMAKE_BINARY_DIR}/_deps/stb_include/stb"
         URL https://github.com/nothings/stb/archive/8b5f1f37b5b75829fc72d38e7b5d4bcbf8a26d55.tar.gz
-        DOWNLOAD_EXTRACT_TIMESTAMP ON SOURCE_SUBDIR no_build_files)
+        ${ism_timestamps} SOURCE_SUBDIR no_build_files)
     FetchContent_MakeAvailable(ism_stb_source)
     set(ISM_stb_INCLUDE_DIR "${CMAKE_BINARY_DIR}/_deps/stb_include" CACHE PATH "" FORCE)
 endif()

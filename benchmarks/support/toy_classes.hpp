@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "support/many_classes.hpp"
+#include "toy/cluttered.hpp"
+#include "toy/isolated.hpp"
 #include "toy_lessons.hpp"
 
 #include "ism/core/thread_pool.hpp"

@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include <CLI/CLI.hpp>
 
+#include "ism/core/thread_pool.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/version.hpp"
 
@@ -19,7 +20,9 @@ std::vector<std::string> texts(std::span<const std::string_view> views) {
 }
 
 void add_threads(CLI::App& app, unsigned& threads) {
-    app.add_option("--threads", threads, "threads; 0 = as many as the machine has")->capture_default_str();
+    app.add_option("--threads", threads, "threads; 0 = as many as the machine has")
+        ->check(CLI::Range(0u, ism::max_threads))
+        ->capture_default_str();
 }
 
 void add_skip_bad(CLI::App& app, bool& skip_bad) {

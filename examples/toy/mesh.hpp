@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <cstdint>
 #include <numbers>
@@ -54,22 +53,10 @@ struct Turned {
 };
 
 /// @brief `outline` turned around the vertical axis through `base`. A point given twice makes an edge.
-[[nodiscard]] inline Mesh lathe(std::span<const Turned> outline, Vec base, int segments = 32) {
-    const int rows = int(outline.size()) - 1;
-    return surface(segments, rows, true, [&](float u, float v) {
-        const Turned at = outline[std::size_t(v * float(rows) + 0.5f)];
-        const float angle = 2 * std::numbers::pi_v<float> * u;
-        return base + Vec{at.radius * std::cos(angle), at.radius * std::sin(angle), at.height};
-    });
-}
+[[nodiscard]] Mesh lathe(std::span<const Turned> outline, Vec base, int segments = 32);
 
 /// @brief An ellipsoid with half axes `radii`.
-[[nodiscard]] inline Mesh ellipsoid(Vec centre, Vec radii, int segments = 24) {
-    return surface(segments, segments / 2, true, [&](float u, float v) {
-        const float a = 2 * std::numbers::pi_v<float> * u, b = std::numbers::pi_v<float> * v;
-        return centre + radii * Vec{std::cos(a) * std::sin(b), std::sin(a) * std::sin(b), -std::cos(b)};
-    });
-}
+[[nodiscard]] Mesh ellipsoid(Vec centre, Vec radii, int segments = 24);
 
 /// @brief A bent pipe: path(t) is its middle line, radius(t) its thickness, t in 0 … 1. Its ends are open.
 template <std::invocable<float> Path, std::invocable<float> Radius>
@@ -84,36 +71,6 @@ template <std::invocable<float> Path, std::invocable<float> Radius>
 }
 
 /// @brief A box with half sides `half` whose edges are rounded with radius `round`.
-[[nodiscard]] inline Mesh rounded_box(Vec centre, Vec half, float round) {
-    Mesh mesh;
-    const Vec inner = half - Vec{round, round, round};
-    const auto ticks = [round](float h) {
-        return std::array{-h, round * 0.45f - h, round - h, h - round, h - round * 0.45f, h};
-    };
-    const auto add_face = [&](int axis, float sign) {
-        const std::array<float, 3> sides{half.x, half.y, half.z};
-        const int u_axis = (axis + 1) % 3, v_axis = (axis + 2) % 3;
-        const auto first = std::uint32_t(mesh.vertices.size());
-        for (const float v : ticks(sides[std::size_t(v_axis)]))
-            for (const float u : ticks(sides[std::size_t(u_axis)])) {
-                std::array<float, 3> at{};
-                at[std::size_t(axis)] = sign * sides[std::size_t(axis)];
-                at[std::size_t(u_axis)] = u, at[std::size_t(v_axis)] = v;
-                const Vec q{at[0], at[1], at[2]};
-                const Vec core{std::clamp(q.x, -inner.x, inner.x), std::clamp(q.y, -inner.y, inner.y),
-                               std::clamp(q.z, -inner.z, inner.z)};
-                const Vec normal = normalised(q - core);
-                mesh.vertices.push_back({centre + core + normal * round, normal});
-            }
-        for (std::uint32_t j = 0; j < 5; ++j)
-            for (std::uint32_t i = 0; i < 5; ++i) {
-                const std::uint32_t a = first + j * 6 + i;
-                mesh.triangles.push_back({a, a + 1, a + 7});
-                mesh.triangles.push_back({a, a + 7, a + 6});
-            }
-    };
-    for (int axis = 0; axis < 3; ++axis) add_face(axis, 1), add_face(axis, -1);
-    return mesh;
-}
+[[nodiscard]] Mesh rounded_box(Vec centre, Vec half, float round);
 
 }  // namespace toy

@@ -35,18 +35,7 @@ struct Model {
 };
 
 /// @brief `model` with the box around it measured.
-[[nodiscard]] inline Model finished(Model model) {
-    bool first = true;
-    for (const Part& part : model.parts)
-        for (const Vertex& vertex : part.mesh.vertices) {
-            const Vec p = vertex.position;
-            if (first) model.low = model.high = p, first = false;
-            model.low = {std::min(model.low.x, p.x), std::min(model.low.y, p.y), std::min(model.low.z, p.z)};
-            model.high = {std::max(model.high.x, p.x), std::max(model.high.y, p.y),
-                          std::max(model.high.z, p.z)};
-        }
-    return model;
-}
+[[nodiscard]] Model finished(Model model);
 
 /// @brief One colour all over.
 [[nodiscard]] inline Paint plain(Vec albedo, float gloss) {

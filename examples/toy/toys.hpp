@@ -2,47 +2,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "toy/car.hpp"
-#include "toy/duck.hpp"
-#include "toy/mug.hpp"
-#include "toy/robot.hpp"
-
-#include "ism/core/error.hpp"
+#include "toy/model.hpp"
 
 namespace toy {
 
 /// @brief The classes of the toy scenes, in the order of their indices.
-[[nodiscard]] inline std::vector<std::string> class_names() {
-    return {"car", "mug", "duck", "robot"};
-}
+[[nodiscard]] std::vector<std::string> class_names();
 
 /// @brief How far toys of a class are turned from their best view, at most, degrees.
-[[nodiscard]] inline double largest_turn_deg(std::size_t class_index) {
-    static constexpr std::array<double, 4> turns{20, 30, 22, 20};
-    return turns[class_index % turns.size()];
-}
+[[nodiscard]] double largest_turn_deg(std::size_t class_index);
 
 /// @brief Toy number `instance` of a class; the same for the same `seed`.
 /// @throws ism::Error where there is no such class or the instance is negative.
-[[nodiscard]] inline Model make_toy(std::size_t class_index, int instance, std::uint64_t seed) {
-    ism::expect(class_index < class_names().size(), "toy class index",
-                ism::lazy_text("below ", class_names().size()), class_index);
-    ism::expect(instance >= 0, "toy instance", "0 or more", instance);
-    const std::uint64_t own = derived_seed(derived_seed(seed, 17 + class_index), std::uint64_t(instance));
-    switch (class_index) {
-        case 0:
-            return make_car(instance, own);
-        case 1:
-            return make_mug(instance, own);
-        case 2:
-            return make_duck(instance, own);
-        default:
-            return make_robot(instance, own);
-    }
-}
+[[nodiscard]] Model make_toy(std::size_t class_index, int instance, std::uint64_t seed);
 
 }  // namespace toy

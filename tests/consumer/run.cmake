@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 
-# WAY is find_package or add_subdirectory: installs where needed, then configures, builds and runs tests/consumer/WAY.
+# WAY is find_package or add_subdirectory, MORE further arguments to configure with: installs where needed, then configures, builds and runs tests/consumer/WAY.
 function(step what)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
     if(NOT result EQUAL 0)
@@ -31,7 +31,7 @@ if(WAY STREQUAL "find_package")
     list(APPEND arguments "-DCMAKE_PREFIX_PATH=${SCRATCH}/moved" "-DISM_VERSION=${VERSION}")
 endif()
 step("configure" "${CMAKE_COMMAND}" -S "${ISM_SOURCE}/tests/consumer/${WAY}" -B "${SCRATCH}/build" -G "${GENERATOR}"
-     "-DCMAKE_CXX_COMPILER=${COMPILER}" ${arguments})
+     "-DCMAKE_CXX_COMPILER=${COMPILER}" ${arguments} ${MORE})
 step("build" "${CMAKE_COMMAND}" --build "${SCRATCH}/build")
 step("run" "${SCRATCH}/build/consumer")
 string(STRIP "${output}" output)

@@ -15,6 +15,8 @@ $line "bogus" "$ism" train --data toys/train.json -o out --detector bogus
 $line "bogus" "$ism" detect --model $model --data toys/test.json -o out --space bogus
 $line "--keep" "$ism" detect --model $model --data toys/test.json -o out --keep 2
 $line "--similarity" "$ism" train --data toys/train.json -o out --similarity much
+$line "--threads" "$ism" train --data toys/train.json -o out --threads 1000000
+$line "--threads" "$ism" detect --model $model --data toys/test.json -o out --threads -1
 
 # Files that are not what they should be.
 $line "'none.json': expected a file to read, got none of this name" "$ism" train --data none.json -o out

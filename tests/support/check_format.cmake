@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 
 # All sources are as clang-format 14 writes them; other versions write some lines differently.
 find_program(clang_format NAMES clang-format-14 clang-format)

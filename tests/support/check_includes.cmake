@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 
 # The rules the headers keep: the folders are stations in this order, and a header includes only its own and earlier
 # ones; nanoflann is hidden in one header; Eigen/Core does, Eigen/Dense compiles slowly; nothing prints.

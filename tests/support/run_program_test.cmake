@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 
 # Runs SCRIPT PROGRAM SCRATCH with SCRATCH made empty before; 77 from the script means skipped.
 file(REMOVE_RECURSE "${SCRATCH}")

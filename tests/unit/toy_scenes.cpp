@@ -14,6 +14,7 @@
 #include "toy/toy_set.hpp"
 #include <nlohmann/json.hpp>
 
+#include "ism/core/thread_pool.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/io/write_file.hpp"
 

@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+cmake_minimum_required(VERSION 3.22)
+
+# What a header costs whoever includes it, without a clock: the headers of ours it reaches, and the libraries among them.
+# A header that comes to reach more than its line says makes every program that includes it slower to compile.
+#   header | headers of ours it may reach | libraries it may reach (of those below)
+set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "immintrin.h" "iostream" "regex")
+set(budget
+    "ism.hpp                    | 108 | Eigen/ immintrin.h"
+    "vote/axes.hpp              |  14 | "
+    "detect/detect.hpp          |  66 | immintrin.h"
+    "train/train_options.hpp    |  44 | "
+    "train/training_image.hpp   |  10 | "
+    "train/train.hpp            |  95 | Eigen/ immintrin.h"
+    "evaluate/evaluate.hpp      |  14 | "
+    "core/frame.hpp             |   9 | "
+    "feature/hessian_laplace.hpp|  21 | immintrin.h"
+    "feature/sift.hpp           |  20 | immintrin.h"
+    "dataset/dataset.hpp        |  21 | stb/"
+    "dataset/coco.hpp           |  25 | nlohmann/ stb/"
+    "io/images.hpp              |  14 | stb/"
+    "model_file/model_file.hpp  |  44 | nlohmann/"
+)
+set(errors "")
+
+# Reads each header once: `own_<header>` are those of ours it includes, `other_<header>` the rest.
+file(GLOB_RECURSE headers RELATIVE "${ROOT}/include/ism" "${ROOT}/include/ism/*.hpp")
+foreach(header IN LISTS headers)
+    set(own_${header} "")
+    set(other_${header} "")
+    file(STRINGS "${ROOT}/include/ism/${header}" lines REGEX "^ *# *include")
+    foreach(line IN LISTS lines)
+        if(line MATCHES "\"ism/([^\"]+)\"")
+            list(APPEND own_${header} "${CMAKE_MATCH_1}")
+        elseif(line MATCHES "<([^>]+)>")
+            list(APPEND other_${header} "${CMAKE_MATCH_1}")
+        endif()
+    endforeach()
+endforeach()
+
+# reach(<header>): all that comes with it, `reached` of ours (itself too) and `foreign`.
+function(reach header)
+    set(reached "${header}")
+    set(foreign "")
+    set(next "${header}")
+    while(next)
+        list(POP_FRONT next current)
+        list(APPEND foreign ${other_${current}})
+        foreach(included IN LISTS own_${current})
+            if(NOT included IN_LIST reached)
+                list(APPEND reached "${included}")
+                list(APPEND next "${included}")
+            endif()
+        endforeach()
+    endwhile()
+    set(reached "${reached}" PARENT_SCOPE)
+    set(foreign "${foreign}" PARENT_SCOPE)
+endfunction()
+
+foreach(line IN LISTS budget)
+    if(NOT line MATCHES "^([^ |]+) *\\| *([0-9]+) *\\| *(.*)$")
+        message(FATAL_ERROR "expected 'header | number | libraries', got '${line}'")
+    endif()
+    set(header "${CMAKE_MATCH_1}")
+    set(most "${CMAKE_MATCH_2}")
+    separate_arguments(allowed UNIX_COMMAND "${CMAKE_MATCH_3}")
+    if(NOT header IN_LIST headers)
+        list(APPEND errors "${header}: there is no such header")
+        continue()
+    endif()
+    reach("${header}")
+    list(LENGTH reached count)
+    if(count GREATER most)
+        list(APPEND errors "${header}: expected to reach at most ${most} headers of ours, got ${count}")
+    endif()
+    set(used "")
+    foreach(library IN LISTS libraries)
+        set(with ${foreign})
+        list(FILTER with INCLUDE REGEX "^${library}")
+        if(with)
+            list(APPEND used "${library}")
+        endif()
+        if(with AND NOT library IN_LIST allowed)
+            foreach(own IN LISTS reached)
+                set(by ${other_${own}})
+                list(FILTER by INCLUDE REGEX "^${library}")
+                if(by)
+                    list(APPEND errors "${header}: expected not to reach <${by}>, got it by ${own}")
+                    break()
+                endif()
+            endforeach()
+        endif()
+    endforeach()
+    if(VERBOSE)
+        message("${header} | ${count} of ${most} | ${used}")
+    endif()
+endforeach()
+
+# Whatever is included first, an old standard ends the compilation in one line: every header reaches config.hpp. These
+# few do not yet; they are small parts that others include.
+set(small_parts cluster/near_lists.hpp cluster/principal_directions.hpp cluster/sieve.hpp cluster/spatial_order.hpp codebook/byte_filter.hpp
+    codebook/byte_kernels.hpp codebook/byte_row.hpp codebook/filter.hpp codebook/float_kernels.hpp core/aligned.hpp core/number_text.hpp
+    core/processor.hpp core/random.hpp io/jpeg_damage.hpp io/stb_implementation.hpp show/report_style.hpp vote/cell_grid.hpp vote/kernel.hpp
+    vote/mode.hpp version.hpp)
+foreach(header IN LISTS headers)
+    reach("${header}")
+    if(NOT "config.hpp" IN_LIST reached AND NOT header IN_LIST small_parts)
+        list(APPEND errors "${header}: expected to reach ism/config.hpp")
+    endif()
+endforeach()
+
+if(errors)
+    list(JOIN errors "\n  " errors)
+    message(FATAL_ERROR "includes cost too much or too little:\n  ${errors}")
+endif()
