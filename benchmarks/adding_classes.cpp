@@ -1,16 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 
-// What a model loses that learns classes one after another, against one that has all images at once: on the
-// four-class set, with and without the memory of descriptors, in several orders of the classes.
+// What a model loses that learns classes one after another, from training features kept in its file and those
+// of the new class appended, against one that has all images at once: on the four-class set, in several
+// orders of the classes. At once the labels of all classes choose the upsampling together, in turn those of
+// the first alone; a third way has all images at once with the upsampling of the first class.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <random>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "support/photographs.hpp"
 #include "support/rows.hpp"
 #include <CLI/CLI.hpp>
 
@@ -22,12 +30,16 @@
 #include "ism/evaluate/table.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
-#include "ism/train/add_classes.hpp"
-#include "ism/train/train.hpp"
+#include "ism/model_file/model_file.hpp"
+#include "ism/train/extract_training_features.hpp"
+#include "ism/train/learn.hpp"
 
 namespace {
 
-using Model = ism::Model<ism::HessianLaplace, ism::RootSift>;
+namespace fs = std::filesystem;
+
+using Model = ism::TypedModel<ism::HessianLaplace, ism::RootSift>;
+using Extractor = ism::Extractor<ism::HessianLaplace, ism::RootSift>;
 
 struct Result {
     double accuracy = 0, ap = 0, words = 0, seconds = 0;
@@ -37,21 +49,17 @@ struct Result {
     }
 };
 
-[[nodiscard]] auto images_of(const ism::Dataset& set) {
-    return [&set](std::size_t i) { return ism::read_training_image(set.images[i]); };
-}
-
 /// A data set whose classes have the names of a model, in its order.
 [[nodiscard]] Result evaluated(const Model& model, const ism::Dataset& all) {
     const ism::Dataset set = ism::select_classes(all, model.shapes.class_names);
     std::vector<ism::Detections> found(set.images.size());
     ism::parallel_for(set.images.size(), 0, [&](std::size_t i) {
-        found[i] = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {.threads = 1});
+        found[i] = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {}, 1);
     });
     const auto figures = ism::evaluate(set, found, ism::IouRule{});
     return {.accuracy = figures.confusion ? figures.confusion->accuracy() : 0,
             .ap = figures.mean.ap,
-            .words = double(model.codebook.size())};
+            .words = double(model.words())};
 }
 
 /// Every second image of each class, from the first or the second on; both = all.
@@ -64,22 +72,43 @@ struct Result {
     return half;
 }
 
-[[nodiscard]] Model learn_at_once(const ism::Dataset& set, const ism::TrainOptions& options) {
-    return ism::train<ism::HessianLaplace, ism::RootSift>(set.class_names, set.images.size(), images_of(set),
-                                                          options);
+[[nodiscard]] ism::TrainingFeatures features_of(const ism::Dataset& set, const Extractor& extractor,
+                                                const ism::TrainingFeatureOptions& options) {
+    return ism::extract_training_features(set.class_names, ism::training_set(set), {extractor}, options);
 }
 
-[[nodiscard]] Model learn_in_turn(const ism::Dataset& set, const ism::TrainOptions& options) {
+[[nodiscard]] ism::Dataset class_of(const ism::Dataset& set, std::size_t c) {
+    return ism::select_classes(set, std::span(set.class_names).subspan(c, 1));
+}
+
+[[nodiscard]] Model learn_at_once(const ism::Dataset& set) {
+    return Model(ism::learn(features_of(set, {}, {})));
+}
+
+[[nodiscard]] Model learn_with_upsampling_of_first(const ism::Dataset& set) {
+    std::vector<double> sizes_px;
+    for (const ism::DatasetImage& image : class_of(set, 0).images)
+        for (const ism::DatasetAnnotation& object : image.objects)
+            if (!object.crowd) sizes_px.push_back(std::sqrt(object.box.area()));
+    Extractor extractor;
+    extractor.options.upsampling = ism::choose_upsampling(sizes_px);
+    return Model(ism::learn(features_of(set, extractor, {.choose_upsampling = false})));
+}
+
+/// A model in a file learns a class, again and again.
+/// @param file  for the model and its training features
+[[nodiscard]] Model learn_in_turn(const ism::Dataset& set, const fs::path& file) {
     Model model;
     for (std::size_t c = 0; c < set.class_names.size(); ++c) {
-        const ism::Dataset one = ism::select_classes(set, std::span(set.class_names).subspan(c, 1));
+        const ism::Dataset one = class_of(set, c);
         // The same number of features an object as all classes at once have.
-        const std::size_t most = options.max_features * one.images.size() / set.images.size();
-        ism::TrainOptions first = options;
-        first.max_features = most;
-        model = c == 0 ? learn_at_once(one, first)
-                       : ism::add_classes(model, one.class_names, one.images.size(), images_of(one),
-                                          {.max_features = most, .appearance = options.appearance});
+        ism::TrainingFeatureOptions options;
+        options.max_features = options.max_features * one.images.size() / set.images.size();
+        options.choose_upsampling = c == 0;
+        ism::TrainingFeatures features = features_of(one, c == 0 ? Extractor{} : model.extractor(), options);
+        if (c > 0) features = ism::append(ism::load_training_features(file), std::move(features));
+        model = Model(ism::learn(features));
+        ism::save_model(file, model, &features);
     }
     return model;
 }
@@ -87,7 +116,7 @@ struct Result {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    std::filesystem::path data = ISM_DEFAULT_DATA, json;
+    fs::path data = bench::data_folder(), json;
     std::size_t orders = 4;
     bool halves = false;
     CLI::App app("Classes one after another against all at once, on four-class.");
@@ -105,9 +134,12 @@ int main(int argc, char** argv) try {
     else
         folds = {{train, ism::read_dataset(data / "four-class/test.json")}};
 
-    const std::vector<std::string> ways = {
-        "at once",           "in turn, memory",           "in turn, no memory",
-        "at once, no judge", "in turn, memory, no judge", "in turn, no memory, no judge"};
+    const std::vector<std::string> names_of_ways = {"at once", "in turn, features appended",
+                                                    "at once, upsampling of the first"};
+    const fs::path file =
+        fs::temp_directory_path() / ism::join_text("ism-adding-", std::random_device()(), ".safetensors");
+    std::vector<std::string> ways = names_of_ways;
+    for (const std::string& way : names_of_ways) ways.push_back(way + ", votes alone");
     std::vector<Result> mean(ways.size());
     for (const auto& [images, test] : folds)
         for (std::size_t order = 0; order < orders; ++order) {
@@ -115,27 +147,31 @@ int main(int argc, char** argv) try {
             std::rotate(names.begin(), names.begin() + std::ptrdiff_t(order % names.size()), names.end());
             const ism::Dataset set = ism::select_classes(images, names);
             const double share = 1 / double(orders * folds.size());
-            for (std::size_t way = 0; way < 3; ++way) {
+            for (std::size_t way = 0; way < names_of_ways.size(); ++way) {
                 const auto begin = std::chrono::steady_clock::now();
-                Model model = way == 0 ? learn_at_once(set, {}) : learn_in_turn(set, {.memory = way == 1});
+                Model model = way == 0   ? learn_at_once(set)
+                              : way == 1 ? learn_in_turn(set, file)
+                                         : learn_with_upsampling_of_first(set);
                 const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
                 for (const bool judge : {true, false}) {
-                    if (!judge) model.shapes.appearance = {};
+                    if (!judge) model.box_classifier = {};
                     Result result = evaluated(model, test);
                     result.seconds = time.count();
+                    const std::size_t row = way + (judge ? 0 : names_of_ways.size());
                     std::printf("%s first, %s: accuracy %.3f, mean AP %.3f\n", names.front().c_str(),
-                                ways[way + (judge ? 0 : 3)].c_str(), result.accuracy, result.ap);
+                                ways[row].c_str(), result.accuracy, result.ap);
                     std::fflush(stdout);
-                    mean[way + (judge ? 0 : 3)].add(result, share);
+                    mean[row].add(result, share);
                 }
             }
         }
+    fs::remove(file);
 
     std::vector<std::vector<std::string>> cells = {
         {"mean of orders", "accuracy", "mean AP", "words", "seconds"}};
     std::vector<bench::Row> rows;
     for (std::size_t way = 0; way < ways.size(); ++way) {
-        const Result &ours = mean[way], &peer = mean[way < 3 ? 0 : 3];
+        const Result &ours = mean[way], &peer = mean[way - way % names_of_ways.size()];
         cells.push_back({ways[way], bench::number(ours.accuracy, 3), bench::number(ours.ap, 3),
                          bench::number(ours.words, 0), bench::number(ours.seconds, 1)});
         if (&ours == &peer) continue;

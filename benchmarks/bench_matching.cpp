@@ -14,8 +14,8 @@
 namespace {
 
 /// Rows of length 1 with few large numbers, somewhat as SIFT has them (synthetic).
-ism::Descriptors<float, 128> random_rows(std::size_t count, ism::Random& random) {
-    ism::Descriptors<float, 128> rows(count);
+ism::Descriptors<float> random_rows(std::size_t count, ism::Random& random) {
+    ism::Descriptors<float> rows(128, count);
     for (std::size_t i = 0; i < count; ++i) {
         double sq_length = 0;
         for (float& v : rows.row(i)) {
@@ -32,28 +32,25 @@ ism::Descriptors<float, 128> random_rows(std::size_t count, ism::Random& random)
 TEST_CASE("matching by number of words", "[!benchmark]") {
     ism::Random random(1);
     const auto descriptors = random_rows(960, random);
+    ism::ThreadPool pool(1);
     for (const std::size_t size : {1000u, 7000u, 50000u}) {
-        ism::Codebook<128> codebook;
-        codebook.words = random_rows(size, random);
-        codebook.mean_sq_length.assign(size, 1);
-        codebook.group.assign(size, 0);
-        codebook.max_sq_distance = 0.36;
+        ism::Codebook codebook(128, 0.36);
+        const auto means = random_rows(size, random);
+        for (std::size_t i = 0; i < size; ++i)
+            codebook.push_back({.mean = means.row(i), .mean_sq_length = 1});
         const std::string words = ism::join_text(", ", size, " words");
         const auto bench = [&](const std::string& name, ism::VectorUnit unit) {
             if (!ism::has_unit(unit)) return;
-            const ism::WordIndex<128> index(codebook, unit);
+            const ism::WordIndex index(codebook, unit);
             BENCHMARK(name + words) {
-                return ism::match(index, descriptors, 1).size();
-            };
-            BENCHMARK(name + ", nearest only" + words) {
-                return ism::match(index, descriptors, 1, {.mode = ism::MatchMode::nearest}).size();
+                return ism::match(index, descriptors, pool).size();
             };
         };
         bench("any unit", ism::VectorUnit::any);
         bench("AVX2", ism::VectorUnit::avx2);
         bench("AVX-512 VNNI", ism::VectorUnit::avx512_vnni);
         BENCHMARK("making the index" + words) {
-            return ism::WordIndex<128>(codebook).size();
+            return ism::WordIndex(codebook).size();
         };
     }
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -16,6 +17,7 @@
 
 TEST_CASE("voting by number of classes", "[!benchmark]") {
     constexpr std::size_t total = 16384;
+    ism::ThreadPool pool(1);
     for (const std::uint32_t classes : {1u, 16u, 128u, 1024u}) {
         ism::Random random(classes);
         std::vector<ism::Vote<3>> votes;
@@ -37,10 +39,10 @@ TEST_CASE("voting by number of classes", "[!benchmark]") {
             return copy.size();
         };
         BENCHMARK("the 40 strongest modes, " + size) {
-            return ism::strongest_modes<ism::EpanechnikovKernel>(parts, bandwidth, {}, 40, 0.05, 1).size();
+            return ism::strongest_modes<ism::EpanechnikovKernel>(parts, bandwidth, {}, 40, 0.05, pool).size();
         };
         BENCHMARK("every mode, " + size) {
-            return ism::strongest_modes<ism::EpanechnikovKernel>(parts, bandwidth, {}, votes.size(), 0, 1)
+            return ism::strongest_modes<ism::EpanechnikovKernel>(parts, bandwidth, {}, votes.size(), 0, pool)
                 .size();
         };
     }

@@ -9,10 +9,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <deque>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -38,9 +38,7 @@ namespace {
 namespace fs = std::filesystem;
 using ism::HessianLaplace;
 using ism::RootSift;
-using Model = ism::Model<HessianLaplace, RootSift>;
-using Harvest = ism::Harvest<HessianLaplace, RootSift>;
-using Detector = ism::FrameDetector<HessianLaplace, RootSift>;
+using Model = ism::TypedModel<HessianLaplace, RootSift>;
 
 struct Settings {
     fs::path data;
@@ -74,12 +72,12 @@ struct Point {
 /// A model for each class, which are searched one after another.
 class ModelsApart {
 public:
-    ModelsApart(const Harvest& harvest, std::size_t classes, const ism::TrainOptions& options)
-        : extractor_(harvest.extractor, options.threads), threads_(options.threads) {
+    ModelsApart(const ism::TrainingFeatures& features, std::size_t classes, const ism::TrainOptions& options)
+        : pool_(options.threads),
+          extractor_(ism::extractor_from<HessianLaplace, RootSift>(features.settings.front()), pool_) {
         for (std::uint32_t c = 0; c < classes; ++c) {
-            Model model = ism::learn(bench::classes_of(harvest, c, c + 1), options);
-            words_.emplace_back(model.codebook);
-            shapes_.push_back(std::move(model.shapes));
+            models_.push_back(ism::learn(bench::classes_of(features, c, c + 1), options));
+            words_.emplace_back(models_.back().channels.front().codebook);
         }
     }
 
@@ -94,25 +92,27 @@ public:
         const auto& found = extractor_.extract(frame.gray.view());
         std::size_t objects = 0;
         for (std::size_t c = 0; c < words_.size(); ++c) {
-            const std::vector<ism::Match> matches = ism::match(words_[c], found.descriptors, threads_);
-            objects += ism::detect_from_matches<ism::Jism>(found.features, matches, shapes_[c], frame,
-                                                           {.threads = threads_})
-                           .objects.size();
+            ism::Scene scene{.frame = frame,
+                             .model = models_[c],
+                             .pool = pool_,
+                             .features = found.features,
+                             .matches = ism::match(words_[c], found.descriptors, pool_)};
+            objects += ism::recognise(std::move(scene), ism::Recognition<ism::Jism>{}).objects.size();
         }
         return objects;
     }
 
 private:
+    ism::ThreadPool pool_;
     ism::FeatureExtractor<HessianLaplace, RootSift> extractor_;
-    std::deque<ism::WordIndex<RootSift::dimension>> words_;
-    std::deque<ism::Shapes> shapes_;
-    unsigned threads_;
+    std::vector<ism::Model> models_;
+    std::vector<ism::WordIndex> words_;
 };
 
 /// How many objects of the first `classes` classes are in the pictures, and how many of these are found as
 /// what and where they are.
 [[nodiscard]] std::pair<std::size_t, std::size_t> shown_and_found(
-    Detector& detector, std::size_t classes, const std::vector<ism::TrainingImage>& pictures) {
+    ism::FrameDetector& detector, std::size_t classes, const std::vector<ism::TrainingImage>& pictures) {
     std::size_t shown = 0, right = 0;
     for (const ism::TrainingImage& picture : pictures) {
         const auto found = detector.detect<ism::Jism>(picture.frame);
@@ -129,42 +129,32 @@ private:
     return {shown, right};
 }
 
-[[nodiscard]] Point measure(const bench::ManyClasses& classes, const Harvest& harvest, std::size_t count,
-                            const Settings& settings) {
+[[nodiscard]] Point measure(const bench::ManyClasses& classes, const ism::TrainingFeatures& features,
+                            std::size_t count, const Settings& settings) {
     Point point{.classes = count};
-    const Harvest part = bench::classes_of(harvest, 0, std::uint32_t(count));
-    ism::TrainOptions options{
-        .max_cluster_features = part.seen.size() + 2, .appearance = false, .threads = settings.threads};
-    const auto judged = [&](Model model) {
-        if (settings.judge)
-            model.shapes.appearance = ism::learn_appearance(
-                model, part.first_object, [&](std::size_t i) -> const auto& { return classes.images[i]; }, {},
-                settings.threads);
-        return model;
-    };
+    const ism::TrainingFeatures part = bench::classes_of(features, 0, std::uint32_t(count));
+    const ism::TrainOptions votes_alone{.codebook = {.max_features = part.feature_count() + 2},
+                                        .box_classifier = std::nullopt,
+                                        .calibrate = false,
+                                        .threads = settings.threads};
+    ism::TrainOptions options = votes_alone;
+    if (settings.judge) options.box_classifier.emplace();
     const auto begin = std::chrono::steady_clock::now();
-    const Model joint = judged(ism::learn(part, options));
+    const Model joint(ism::learn(part, options));
     point.learnt_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    ModelsApart apart(harvest, count, options);
-    options.codebook = ism::CodebookKind::per_class;
-    const Model per_class = judged(ism::learn(part, options));
-    point.words = {joint.codebook.size(), per_class.codebook.size(), apart.words()};
+    ModelsApart apart(features, count, votes_alone);
+    options.codebook.kind = ism::CodebookKind::per_class;
+    const Model per_class(ism::learn(part, options));
+    point.words = {joint.words(), per_class.words(), apart.words()};
 
-    Detector joint_detector(joint, settings.threads), per_class_detector(per_class, settings.threads);
+    ism::FrameDetector joint_detector(joint, settings.threads),
+        per_class_detector(per_class, settings.threads);
     const auto each = [&](const auto& search) {
         for (const ism::Frame& frame : classes.frames) search(frame);
     };
     const std::vector<std::function<void()>> runs = {
-        [&] {
-            each([&](const auto& frame) {
-                (void)joint_detector.detect<ism::Jism>(frame, {.threads = settings.threads});
-            });
-        },
-        [&] {
-            each([&](const auto& frame) {
-                (void)per_class_detector.detect<ism::Jism>(frame, {.threads = settings.threads});
-            });
-        },
+        [&] { each([&](const auto& frame) { (void)joint_detector.detect<ism::Jism>(frame); }); },
+        [&] { each([&](const auto& frame) { (void)per_class_detector.detect<ism::Jism>(frame); }); },
         [&] { each([&](const auto& frame) { (void)apart.search(frame); }); }};
     const std::vector<double> ms = bench::interleaved_ms(runs, settings.rounds);
     for (std::size_t k = 0; k < kinds.size(); ++k) point.ms[k] = ms[k] / double(classes.frames.size());
@@ -198,16 +188,16 @@ private:
 void scale(const bench::ManyClasses& classes, const Settings& settings, const fs::path& svg,
            std::vector<bench::Row>& rows) {
     const std::size_t most = classes.names.size();
-    const Harvest harvest = ism::harvest<HessianLaplace, RootSift>(
-        classes.names, classes.images.size(), [&](std::size_t i) -> const auto& { return classes.images[i]; },
-        {}, {.max_features = 100 * classes.images.size()});
-    std::printf("%s: %zu classes, %zu features\n", classes.what.c_str(), most, harvest.seen.size());
+    const ism::TrainingFeatures features = ism::extract_training_features(
+        classes.names, ism::training_set(classes.images), {ism::Extractor<HessianLaplace, RootSift>{}},
+        {.max_features = 100 * classes.images.size(), .views = settings.judge});
+    std::printf("%s: %zu classes, %zu features\n", classes.what.c_str(), most, features.feature_count());
     std::vector<std::vector<std::string>> table = {{"classes", "joint learnt s", "ms", "words", "found",
                                                     "codebook a class ms", "words", "found",
                                                     "model a class ms", "words"}};
     std::vector<Point> points;
     for (std::size_t count = 1; count <= most; count *= 2) {
-        const Point p = measure(classes, harvest, count, settings);
+        const Point p = measure(classes, features, count, settings);
         table.push_back({std::to_string(count), bench::number(p.learnt_s, 1)});
         for (std::size_t k = 0; k < kinds.size(); ++k) {
             table.back().push_back(bench::number(p.ms[k], 1));

@@ -67,7 +67,7 @@ template <ism::Detector D>
 
 /// The features whose centre the other image shows.
 [[nodiscard]] Features shown_by(const Features& set, const Homography& map, int width, int height) {
-    Features kept;
+    Features kept = bench::sift_features();
     for (std::size_t i = 0; i < set.features.size(); ++i) {
         const ism::Point2 at = map(set.features[i].x, set.features[i].y);
         if (at.x < 0 || at.y < 0 || at.x > width - 1 || at.y > height - 1) continue;

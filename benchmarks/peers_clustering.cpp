@@ -22,7 +22,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ism/cluster/cluster.hpp"
-#include "ism/train/train.hpp"
+#include "ism/train/train_options.hpp"
 
 namespace {
 
@@ -111,7 +111,7 @@ int main(int argc, char** argv) try {
     std::string python = "/usr/bin/python3";
     std::vector<std::size_t> counts = {2000, 10000, 30000};
     std::size_t rounds = 3;
-    double similarity = ism::TrainOptions{}.min_similarity;
+    double similarity = ism::CodebookOptions{}.min_similarity;
     CLI::App app("Time of average-link clustering, ours beside fastcluster and SciPy.");
     app.add_option("--data", data, "folder of the real images")->capture_default_str();
     app.add_option("--python", python, "Python that has numpy, scipy and fastcluster")->capture_default_str();

@@ -28,20 +28,20 @@ namespace {
 
 namespace fs = std::filesystem;
 using bench::Hit;
+using bench::Rows;
 using bench::Words;
 
 /// By the definition of the distance, in double, one pair after another.
-template <ism::DescriptorScalar Scalar>
-std::vector<Hit> exact_hits(const bench::WordsOf<Scalar>& words, const bench::Rows<Scalar>& queries) {
+std::vector<Hit> exact_hits(const Words& words, const Rows& queries) {
     std::vector<Hit> hits;
     for (std::uint32_t i = 0; i < queries.size(); ++i)
         for (std::uint32_t w = 0; w < words.size(); ++w) {
             double square = 0, dot = 0;
             for (std::size_t k = 0; k < bench::sift_size; ++k) {
                 const double d = queries.row(i)[k];
-                square += d * d, dot += d * double(words.words.row(w)[k]);
+                square += d * d, dot += d * double(words.means().row(w)[k]);
             }
-            if (square + double(words.mean_sq_length[w]) - 2 * dot <= words.max_sq_distance)
+            if (square + double(words.mean_sq_lengths()[w]) - 2 * dot <= words.max_sq_distance())
                 hits.emplace_back(i, w);
         }
     return hits;
@@ -66,21 +66,19 @@ std::vector<Hit> first_hits(std::vector<Hit> hits, std::size_t queries) {
     return hits;
 }
 
-template <ism::DescriptorScalar Scalar>
-bench::Rows<Scalar> first_rows(bench::Rows<Scalar> rows, std::size_t count) {
+Rows first_rows(Rows rows, std::size_t count) {
     rows.resize(std::min(count, rows.size()));
     return rows;
 }
 
-/// Ours on queries of one kind, beside each peer on floats.
-template <ism::DescriptorScalar Scalar>
-void compare(const std::string& name, const bench::WordsOf<Scalar>& words, const bench::Rows<Scalar>& queries,
-             const std::vector<bench::SearchPeer>& peers, const Words& peer_words,
-             const bench::Rows<float>& peer_queries, ism::VectorUnit unit, std::size_t rounds,
-             std::vector<bench::Row>& rows) {
-    const ism::WordIndex<bench::sift_size, Scalar> index(words, unit);
+/// Ours on queries of one kind, beside each peer on plain SIFT.
+void compare(const std::string& name, const Words& words, const Rows& queries,
+             const std::vector<bench::SearchPeer>& peers, const Words& peer_words, const Rows& peer_queries,
+             ism::VectorUnit unit, std::size_t rounds, std::vector<bench::Row>& rows) {
+    const ism::WordIndex index(words, unit);
+    ism::ThreadPool pool(1);
     const auto exact = exact_hits(words, queries), peer_exact = exact_hits(peer_words, peer_queries);
-    const auto ours = ism::match(index, queries, 1);
+    const auto ours = ism::match(index, queries, pool);
     const bool same = hits_of(ours) == exact;
     for (const bool slow : {false, true}) {
         const std::size_t count = slow ? std::min<std::size_t>(200, queries.size()) : queries.size();
@@ -91,27 +89,19 @@ void compare(const std::string& name, const bench::WordsOf<Scalar>& words, const
             if (peer.slow == slow) chosen.push_back(&peer);
         std::vector<std::vector<Hit>> found(chosen.size());
         std::size_t kept = 0;
-        std::vector<std::function<void()>> timed = {[&] { kept += ism::match(index, mine, 1).size(); }};
-        if (!slow)
-            timed.emplace_back(
-                [&] { kept += ism::match(index, mine, 1, {.mode = ism::MatchMode::nearest}).size(); });
+        std::vector<std::function<void()>> timed = {[&] { kept += ism::match(index, mine, pool).size(); }};
         for (std::size_t p = 0; p < chosen.size(); ++p)
             timed.emplace_back([&, p] { found[p].clear(), chosen[p]->search(theirs, found[p]); });
         const auto ms = bench::interleaved_ms(timed, slow ? 1 : rounds);
         const auto us = [&](double time) { return 1000 * time / double(count); };
         const auto expected = first_hits(peer_exact, count);
         for (std::size_t p = 0; p < chosen.size(); ++p) {
-            const double theirs_us = us(ms[timed.size() - chosen.size() + p]);
+            const double theirs_us = us(ms[1 + p]);
             rows.push_back({name, us(ms[0]), theirs_us, chosen[p]->name, "us a query", same,
                             "recall: ours " + bench::number(recall(hits_of(ours), exact), 4) + ", peer " +
                                 bench::number(recall(found[p], expected), 4) + "; " +
                                 bench::number(double(exact.size()) / double(queries.size()), 1) +
                                 " words a query"});
-        }
-        if (!slow) {
-            const auto nearest = ism::match(index, queries, 1, {.mode = ism::MatchMode::nearest});
-            rows.push_back({name + ", nearest only", us(ms[1]), us(ms[0]), "ism, all words", "us a query",
-                            nearest == ism::nearest_only(ours), "the nearest of all, in each group"});
         }
     }
 }
@@ -168,7 +158,8 @@ int main(int argc, char** argv) try {
         std::vector<bench::SearchPeer> peers = bench::search_peers(words, !fast_only);
         compare(name + ", float", words, queries, peers, words, queries, unit, rounds, rows);
         std::erase_if(peers, [](const bench::SearchPeer& peer) { return peer.slow; });
-        compare(name + ", bytes", bench::in_bytes(words), bytes, peers, words, queries, unit, rounds, rows);
+        compare(name + ", bytes", bench::in_byte_units(words), bytes, peers, words, queries, unit, rounds,
+                rows);
     }
     bench::print(rows);
     if (!json.empty()) bench::write_json(json, rows);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@
 namespace {
 
 namespace fs = std::filesystem;
-using Model = ism::Model<ism::HessianLaplace, ism::RootSift>;
+using Model = ism::TypedModel<ism::HessianLaplace, ism::RootSift>;
 
 struct Figures {
     double accuracy = 0, ap = 0;
@@ -38,7 +39,7 @@ struct Figures {
 [[nodiscard]] Figures figures_of(const Model& model, const ism::Dataset& set) {
     std::vector<ism::Detections> found(set.images.size());
     ism::parallel_for(set.images.size(), 0, [&](std::size_t i) {
-        found[i] = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {.threads = 1});
+        found[i] = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {}, 1);
     });
     const auto evaluation = ism::evaluate(set, found, ism::IouRule{0.5});
     return {evaluation.confusion ? evaluation.confusion->accuracy() : std::nan(""), evaluation.mean.ap};
@@ -54,10 +55,12 @@ void measure(const fs::path& data, bool judge, const std::string& svg) {
                                     Choice{"vote agreement", ism::WordMeasure::vote_agreement}};
     const ism::Dataset train = ism::read_dataset(data / "train.json"),
                        test = ism::read_dataset(data / "test.json");
-    const auto source = [&](std::size_t i) { return ism::read_training_image(train.images[i]); };
-    const auto harvest =
-        ism::harvest<ism::HessianLaplace, ism::RootSift>(train.class_names, train.images.size(), source);
-    const Model all = ism::learn(harvest, {});
+    const auto features = ism::extract_training_features(
+        train.class_names, ism::training_set(train), {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
+        {.views = judge});
+    ism::TrainOptions options{.box_classifier = std::nullopt, .calibrate = false};
+    const std::size_t all = ism::learn(features, options).words();
+    if (judge) options.box_classifier.emplace();
     std::vector<std::vector<std::string>> table = {
         {"words", "occurrences", "", "information gain", "", "vote agreement", ""},
         {"", "accuracy %", "AP %", "accuracy %", "AP %", "accuracy %", "AP %"}};
@@ -66,13 +69,11 @@ void measure(const fs::path& data, bool judge, const std::string& svg) {
                    .y_label = "accuracy"};
     for (std::size_t m = 0; m < choices.size(); ++m)
         plot.curves.push_back({.name = choices[m].name, .color = ism::class_color(m)});
-    for (std::size_t count = all.codebook.size(); count >= 100; count = count * 10 / 18) {
+    for (std::size_t count = all; count >= 100; count = count * 10 / 18) {
         std::vector<std::string> row = {std::to_string(count)};
         for (std::size_t m = 0; m < choices.size(); ++m) {
-            Model model =
-                ism::keep_words(all, ism::best_words(ism::word_worth(all.shapes, choices[m].measure), count));
-            if (judge) model.shapes.appearance = ism::learn_appearance(model, harvest.first_object, source);
-            const Figures figures = figures_of(model, test);
+            options.selection = {.max_words = count, .measure = choices[m].measure};
+            const Figures figures = figures_of(Model(ism::learn(features, options)), test);
             row.push_back(bench::number(100 * figures.accuracy, 1));
             row.push_back(bench::number(100 * figures.ap, 1));
             plot.curves[m].x.push_back(std::log2(double(count)));
@@ -81,7 +82,7 @@ void measure(const fs::path& data, bool judge, const std::string& svg) {
         std::fprintf(stderr, "%zu words\n", count);
         table.push_back(std::move(row));
     }
-    plot.x_range = {6, std::ceil(std::log2(double(all.codebook.size())))};
+    plot.x_range = {6, std::ceil(std::log2(double(all)))};
     std::fputs(ism::align_columns(table).c_str(), stdout);
     if (!svg.empty()) ism::write_file(svg, [&](std::ostream& out) { out << ism::to_svg(plot); });
 }

@@ -18,19 +18,21 @@
 int main(int argc, char** argv) try {
     std::vector<std::string> names = toy::class_names();
     std::vector<ism::TrainingImage> images;
+    ism::Dataset dataset;
+    ism::TrainingSet lessons;
     ism::Frame frame;
     if (argc == 3) {
-        const ism::Dataset dataset = ism::read_dataset(argv[1]);
+        dataset = ism::read_dataset(argv[1]);
         names = dataset.class_names;
-        for (const ism::DatasetImage& image : dataset.images)
-            images.push_back(ism::read_training_image(image));
+        lessons = ism::training_set(dataset);  // images are read when they are needed
         frame.gray = ism::read_gray(argv[2]);
     } else {
         images = toy::make_lessons(6);
+        lessons = ism::training_set(images);
         frame = toy::to_frame(toy::make_test());
     }
 
-    const auto model = ism::train<ism::HessianLaplace, ism::RootSift>(names, images);
+    const auto model = ism::train<ism::HessianLaplace, ism::RootSift>(names, lessons);
     const ism::Detections found = ism::detect<ism::Jism>(model, frame);
 
     for (const ism::Detection& object : found.objects) {

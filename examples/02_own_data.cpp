@@ -10,12 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "ism/core/frame.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/dataset/to_results.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/evaluate/coco.hpp"
+#include "ism/evaluate/detections.hpp"
 #include "ism/evaluate/table.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
@@ -27,23 +26,23 @@ int main(int argc, char** argv) try {
         std::fprintf(stderr, "usage: %s TRAIN.json TEST.json MODEL.safetensors RESULTS.json\n", argv[0]);
         return 2;
     }
-    // Images are read when they are needed, so a large set does not have to fit into memory.
     const ism::Dataset lessons = ism::read_dataset(argv[1]);
-    const auto read = [&](std::size_t i) { return ism::read_training_image(lessons.images[i]); };
     const auto model =
-        ism::train<ism::HessianLaplace, ism::RootSift>(lessons.class_names, lessons.images.size(), read);
+        ism::train<ism::HessianLaplace, ism::RootSift>(lessons.class_names, ism::training_set(lessons));
     ism::save_model(argv[3], model);  // later: ism::load_model<ism::HessianLaplace, ism::RootSift>(path)
 
-    const ism::Dataset scenes = ism::read_dataset(argv[2]);
+    // the classes of the model, in its order
+    const ism::Dataset scenes = ism::select_classes(ism::read_dataset(argv[2]), lessons.class_names);
+    ism::FrameDetector detector(model);
+    std::vector<ism::Detections> found;
     std::vector<ism::Result> results;
     for (const ism::DatasetImage& image : scenes.images) {
-        const ism::Frame frame = ism::read_frame(image);
-        const ism::Detections found = ism::detect<ism::Jism>(model, frame);
-        for (ism::Result& result : ism::to_results(found, image, lessons.category_ids))
+        found.push_back(detector.detect<ism::Jism>(ism::read_frame(image)));
+        for (ism::Result& result : ism::to_results(found.back(), image, scenes.category_ids))
             results.push_back(std::move(result));
     }
     ism::write_results(argv[4], results);
-    std::fputs(ism::to_table(ism::evaluate(scenes, results)).c_str(), stdout);
+    std::fputs(ism::to_table(ism::evaluate(scenes, found)).c_str(), stdout);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

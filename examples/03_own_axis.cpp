@@ -23,15 +23,16 @@ struct CentreDepth {
     static constexpr double bandwidth = 0.1;
     static constexpr ism::Growth growth = ism::Growth::none;
     static constexpr bool needs_depth = true;
-    static double vote(const ism::Feature& f, const ism::Occurrence& o) {
-        return f.depth_m - (std::isfinite(o.depth_m) ? o.depth_m : 0.0f);
+    static double vote(const ism::VoteSource& v) {
+        const float behind_m = v.occurrence.depth_m;  // NaN where it was learnt without depth
+        return v.feature.depth_m - (std::isfinite(behind_m) ? behind_m : 0);
     }
 };
 
 using OwnSpace = ism::VoteSpace<ism::X, ism::Y, ism::Scale, CentreDepth, ism::Class>;
 static_assert(OwnSpace::dimension == 4 && OwnSpace::needs_depth);
 
-template <ism::AnyVoteSpace Space, class Model>
+template <ism::VoteSpaceType Space, class Model>
 void show(const char* title, const Model& model, const ism::Frame& frame) {
     std::printf("%s\n", title);
     for (const ism::Detection& object : ism::detect<Space>(model, frame).objects)

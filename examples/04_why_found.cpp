@@ -32,7 +32,7 @@ int main() try {
     for (const ism::Support& vote :
          std::span(object.support).first(std::min<std::size_t>(8, object.support.size()))) {
         const ism::Feature& feature = found.features[vote.feature];
-        const ism::Occurrence& occurrence = model.shapes.occurrences[vote.occurrence];
+        const ism::Occurrence& occurrence = model.shapes.occurrence(vote.occurrence);
         std::printf("  %.4f  feature at (%3.0f, %3.0f), word %u, seen at (%+.0f, %+.0f) on '%s'\n",
                     vote.weight, feature.x, feature.y, vote.word, occurrence.x, occurrence.y,
                     model.shapes.objects[occurrence.object].image.c_str());

@@ -29,7 +29,7 @@ int main(int argc, char** argv) try {
     ism::write_png("features.png", picture);
 
     ism::write_file("features.txt", [&](std::ostream& out) {
-        out << set.descriptors.dimension << '\n' << set.features.size() << '\n';
+        out << set.descriptors.dimension() << '\n' << set.features.size() << '\n';
         for (std::size_t i = 0; i < set.features.size(); ++i) {
             const ism::Feature& f = set.features[i];
             const double radius = region_scales * f.scale, a = 1 / (radius * radius);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ism/core/frame.hpp"
-#include "ism/train/harvest.hpp"
+#include "ism/train/training_features.hpp"
 
 namespace bench {
 
@@ -21,17 +21,12 @@ struct ManyClasses {
     std::vector<ism::TrainingImage> checks = {};  ///< what should be found where
 };
 
-/// @brief What a harvest of ManyClasses::images gives for the classes first … end − 1 alone.
-template <ism::Detector D, ism::Descriptor Desc>
-[[nodiscard]] ism::Harvest<D, Desc> classes_of(const ism::Harvest<D, Desc>& all, std::uint32_t first,
-                                               std::uint32_t end) {
-    ism::Harvest<D, Desc> part{
-        .extractor = all.extractor,
+/// @brief What training features of ManyClasses::images tell of the classes first … end − 1 alone.
+[[nodiscard]] inline ism::TrainingFeatures classes_of(const ism::TrainingFeatures& all, std::uint32_t first,
+                                                      std::uint32_t end) {
+    ism::TrainingFeatures part{
         .class_names = {all.class_names.begin() + first, all.class_names.begin() + end},
-        .objects = {},
-        .first_object = {0},
-        .seen = {},
-        .descriptors = {}};
+        .settings = all.settings};
     const auto in = [&](std::uint32_t class_index) { return class_index >= first && class_index < end; };
     std::uint32_t before = 0;
     for (const ism::TrainingObject& object : all.objects) {
@@ -39,16 +34,25 @@ template <ism::Detector D, ism::Descriptor Desc>
         if (!in(object.class_index)) continue;
         part.objects.push_back(object);
         part.objects.back().class_index -= first;
-        part.first_object.push_back(static_cast<std::uint32_t>(part.objects.size()));
     }
-    for (std::size_t i = 0; i < all.seen.size(); ++i) {
-        if (!in(all.seen[i].class_index)) continue;
-        ism::Occurrence seen = all.seen[i];
-        seen.class_index -= first, seen.object -= before;
-        seen.feature = static_cast<std::uint32_t>(part.seen.size());
-        part.seen.push_back(seen);
-        part.descriptors.push_back(all.descriptors.row(i));
+    std::uint32_t feature = 0;
+    for (const ism::TrainingSamples& channel : all.samples) {
+        part.samples.push_back({{}, ism::Descriptors<float>(channel.descriptors.dimension())});
+        for (std::size_t i = 0; i < channel.occurrences.size(); ++i) {
+            ism::Occurrence seen = channel.occurrences[i];
+            if (!in(seen.class_index)) continue;
+            seen.class_index -= first, seen.object -= before, seen.feature = feature++;
+            part.samples.back().occurrences.push_back(seen);
+            part.samples.back().descriptors.push_back(channel.descriptors.row(i));
+        }
     }
+    for (const ism::TrainingView& view : all.views) {
+        if (!in(view.labels.front().class_index)) continue;
+        part.views.push_back(view);
+        part.views.back().labels.front().class_index -= first;
+        part.views.back().first_object -= before, part.views.back().end_object -= before;
+    }
+    part.summary = {.images = part.objects.size(), .features_found = feature, .features_used = feature};
     return part;
 }
 

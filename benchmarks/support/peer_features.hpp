@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -30,8 +31,14 @@ extern "C" {
 
 namespace bench {
 
-using Features = ism::FeatureSet<ism::Sift>;
+using Features = ism::FeatureSet<float>;
 using ByteImage = ism::Image<std::uint8_t>;
+
+/// @brief So many features with SIFT descriptors of zeros.
+[[nodiscard]] inline Features sift_features(std::size_t count = 0) {
+    return {.features = std::vector<ism::Feature>(count),
+            .descriptors = ism::Descriptors<float>(ism::Sift::dimension, count)};
+}
 
 /// @brief A library's detector and descriptor under a name.
 struct FeaturePeer {
@@ -48,16 +55,14 @@ struct FeaturePeer {
                 std::vector<cv::KeyPoint> keypoints;
                 cv::Mat rows;
                 cv::SIFT::create(0, 3, 0.04, 10, 1.6)->detectAndCompute(pixels, {}, keypoints, rows);
-                Features set;
-                set.features.reserve(keypoints.size());
-                set.descriptors = ism::Descriptors<float, 128>(keypoints.size());
+                Features set = sift_features(keypoints.size());
                 for (std::size_t i = 0; i < keypoints.size(); ++i) {
                     const cv::KeyPoint& k = keypoints[i];
-                    set.features.push_back({.x = k.pt.x,
-                                            .y = k.pt.y,
-                                            .scale = k.size / 2,
-                                            .angle = float(k.angle * CV_PI / 180),
-                                            .strength = k.response});
+                    set.features[i] = {.x = k.pt.x,
+                                       .y = k.pt.y,
+                                       .scale = k.size / 2,
+                                       .angle = float(k.angle * CV_PI / 180),
+                                       .strength = k.response};
                     for (std::size_t j = 0; j < 128; ++j)
                         set.descriptors.row(i)[j] = rows.at<float>(int(i), int(j)) / 512;
                 }
@@ -86,7 +91,7 @@ struct Delete {
                 vl_sift_new(image.width(), image.height(), -1, 3, -1));
             vl_sift_set_peak_thresh(filter.get(), 255 * 0.04 / 3);
             vl_sift_set_edge_thresh(filter.get(), 10);
-            Features set;
+            Features set = sift_features();
             std::vector<float> row(128);
             for (int more = vl_sift_process_first_octave(filter.get(), pixels.data()); more != VL_ERR_EOF;
                  more = vl_sift_process_next_octave(filter.get())) {
@@ -101,7 +106,7 @@ struct Delete {
                                                 .y = keypoints[i].y,
                                                 .scale = keypoints[i].sigma,
                                                 .angle = float(angles[a])});
-                        set.descriptors.push_back(std::span<const float, 128>(row.data(), 128));
+                        set.descriptors.push_back(row);
                     }
                 }
             }
@@ -131,7 +136,7 @@ struct Delete {
                 const auto* found =
                     static_cast<const VlCovDetFeature*>(vl_covdet_get_features(detector.get()));
                 std::vector<float> patch(side * side), gradient(2 * side * side), row(128);
-                Features set;
+                Features set = sift_features();
                 for (vl_size i = 0; i < vl_covdet_get_num_features(detector.get()); ++i) {
                     const VlFrameOrientedEllipse& frame = found[i].frame;
                     vl_covdet_extract_patch_for_frame(detector.get(), patch.data(), resolution, extent,
@@ -147,7 +152,7 @@ struct Delete {
                                             .scale = scale,
                                             .angle = std::atan2(frame.a21, frame.a11),
                                             .strength = found[i].peakScore});
-                    set.descriptors.push_back(std::span<const float, 128>(row.data(), 128));
+                    set.descriptors.push_back(row);
                 }
                 return set;
             }};

@@ -38,16 +38,16 @@ using Hit = std::pair<std::uint32_t, std::uint32_t>;
 struct SearchPeer {
     std::string name;
     bool slow = false;  ///< only few queries are worth the wait
-    std::function<void(const Rows<float>&, std::vector<Hit>&)> search;
+    std::function<void(const Rows&, std::vector<Hit>&)> search;
 };
 
 /// Blocks of 64 × 512 dot products by `product`, then norms and threshold: as one writes it with a BLAS.
 template <class Product>
-void search_by_products(const Words& words, const Rows<float>& queries, std::vector<Hit>& hits,
+void search_by_products(const Words& words, const Rows& queries, std::vector<Hit>& hits,
                         const Product& product) {
     constexpr std::size_t rows = 64, columns = 512;
     static thread_local std::vector<float> dots(rows * columns);
-    const auto threshold = float(words.max_sq_distance);
+    const auto threshold = float(words.max_sq_distance());
     for (std::size_t first = 0; first < queries.size(); first += rows) {
         const std::size_t height = std::min(rows, queries.size() - first);
         std::vector<float> square(height, 0);
@@ -56,8 +56,8 @@ void search_by_products(const Words& words, const Rows<float>& queries, std::vec
                 Eigen::Map<const Eigen::VectorXf>(queries.row(first + i).data(), sift_size).squaredNorm();
         for (std::size_t left = 0; left < words.size(); left += columns) {
             const std::size_t width = std::min(columns, words.size() - left);
-            product(words.words.row(left).data(), width, queries.row(first).data(), height, dots.data());
-            const float* lengths = words.mean_sq_length.data() + left;
+            product(words.means().row(left).data(), width, queries.row(first).data(), height, dots.data());
+            const float* lengths = words.mean_sq_lengths().data() + left;
             for (std::size_t i = 0; i < height; ++i) {
                 const float* dot = dots.data() + i * width;
                 // in strips, so that the compiler compares many at once
@@ -85,15 +85,15 @@ constexpr std::size_t euclidean_size = sift_size + 1;
     for (std::size_t w = 0; w < words.size(); ++w) {
         double square = 0;
         for (std::size_t k = 0; k < sift_size; ++k) {
-            rows[w * euclidean_size + k] = words.words.row(w)[k];
-            square += double(words.words.row(w)[k]) * words.words.row(w)[k];
+            rows[w * euclidean_size + k] = words.means().row(w)[k];
+            square += double(words.means().row(w)[k]) * words.means().row(w)[k];
         }
         rows[w * euclidean_size + sift_size] =
-            float(std::sqrt(std::max(0.0, double(words.mean_sq_length[w]) - square)));
+            float(std::sqrt(std::max(0.0, double(words.mean_sq_lengths()[w]) - square)));
     }
     return rows;
 }
-[[nodiscard]] inline std::vector<float> euclidean(const Rows<float>& queries) {
+[[nodiscard]] inline std::vector<float> euclidean(const Rows& queries) {
     std::vector<float> rows(queries.size() * euclidean_size, 0);
     for (std::size_t i = 0; i < queries.size(); ++i)
         std::copy_n(queries.row(i).data(), sift_size, rows.data() + i * euclidean_size);
@@ -102,7 +102,7 @@ constexpr std::size_t euclidean_size = sift_size + 1;
 
 [[nodiscard]] inline SearchPeer eigen_search(const Words& words) {
     return {
-        "Eigen gemm", false, [&words](const Rows<float>& queries, std::vector<Hit>& hits) {
+        "Eigen gemm", false, [&words](const Rows& queries, std::vector<Hit>& hits) {
             search_by_products(
                 words, queries, hits,
                 [](const float* w, std::size_t width, const float* q, std::size_t height, float* dots) {
@@ -116,7 +116,7 @@ constexpr std::size_t euclidean_size = sift_size + 1;
 
 #ifdef ISM_HAVE_OPENBLAS
 [[nodiscard]] inline SearchPeer openblas_search(const Words& words) {
-    return {"OpenBLAS sgemm", false, [&words](const Rows<float>& queries, std::vector<Hit>& hits) {
+    return {"OpenBLAS sgemm", false, [&words](const Rows& queries, std::vector<Hit>& hits) {
                 openblas_set_num_threads(1);
                 search_by_products(
                     words, queries, hits,
@@ -134,8 +134,7 @@ constexpr std::size_t euclidean_size = sift_size + 1;
     const auto index = std::make_shared<faiss::IndexFlatL2>(faiss::Index::idx_t(euclidean_size));
     index->add(faiss::Index::idx_t(words.size()), euclidean(words).data());
     return {"faiss flat", false,
-            [index, threshold = float(words.max_sq_distance)](const Rows<float>& queries,
-                                                              std::vector<Hit>& hits) {
+            [index, threshold = float(words.max_sq_distance())](const Rows& queries, std::vector<Hit>& hits) {
                 const std::vector<float> rows = euclidean(queries);
                 faiss::RangeSearchResult result(queries.size());
                 index->range_search(faiss::Index::idx_t(queries.size()), rows.data(), threshold, &result);
@@ -155,8 +154,8 @@ constexpr std::size_t euclidean_size = sift_size + 1;
     for (std::size_t w = 0; w < words.size(); ++w) index->addPoint(rows.data() + w * euclidean_size, w);
     index->setEf(256);
     return {"hnswlib, ef 256", true,
-            [space, index, threshold = float(words.max_sq_distance)](const Rows<float>& queries,
-                                                                     std::vector<Hit>& hits) {
+            [space, index, threshold = float(words.max_sq_distance())](const Rows& queries,
+                                                                       std::vector<Hit>& hits) {
                 const std::vector<float> asked = euclidean(queries);
                 for (std::size_t i = 0; i < queries.size(); ++i)
                     for (auto near = index->searchKnn(asked.data() + i * euclidean_size, 256); !near.empty();
@@ -174,8 +173,8 @@ constexpr std::size_t euclidean_size = sift_size + 1;
         flann::Matrix<float>(rows->data(), words.size(), euclidean_size), flann::KDTreeIndexParams(4));
     index->buildIndex();
     return {"FLANN, 4 trees, 256 checks", true,
-            [rows, index, threshold = float(words.max_sq_distance)](const Rows<float>& queries,
-                                                                    std::vector<Hit>& hits) {
+            [rows, index, threshold = float(words.max_sq_distance())](const Rows& queries,
+                                                                      std::vector<Hit>& hits) {
                 std::vector<float> asked = euclidean(queries);
                 std::vector<std::vector<int>> found;
                 std::vector<std::vector<float>> distances;
@@ -209,8 +208,8 @@ struct NanoflannWords {
     const auto tree = std::make_shared<Tree>(int(euclidean_size), *points);
     tree->buildIndex();
     return {"nanoflann", true,
-            [points, tree, threshold = float(words.max_sq_distance)](const Rows<float>& queries,
-                                                                     std::vector<Hit>& hits) {
+            [points, tree, threshold = float(words.max_sq_distance())](const Rows& queries,
+                                                                       std::vector<Hit>& hits) {
                 const std::vector<float> asked = euclidean(queries);
                 for (std::size_t i = 0; i < queries.size(); ++i) {
 #if NANOFLANN_VERSION >= 0x150

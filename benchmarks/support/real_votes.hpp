@@ -2,15 +2,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "ism/core/frame.hpp"
 #include "ism/core/random.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
-#include "ism/feature/depth.hpp"
+#include "ism/detect/frame_matcher.hpp"
+#include "ism/detect/hypotheses.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
 #include "ism/train/train.hpp"
@@ -28,20 +32,20 @@ using FiveAxesAndClass = ism::VoteSpace<ism::X, ism::Y, ism::Scale, ism::Depth, 
 /// with soft matching, in the five axes.
 [[nodiscard]] inline std::vector<std::vector<ism::Vote<5>>> osd_votes(const std::filesystem::path& data) {
     const ism::Dataset lessons = ism::read_dataset(data / "osd" / "train.json");
-    const auto read = [&](std::size_t i) { return ism::read_training_image(lessons.images[i]); };
-    const auto model = ism::train<ism::HessianLaplace, ism::RootSift>(
-        lessons.class_names, lessons.images.size(), read, {.appearance = false});
+    const auto model =
+        ism::train<ism::HessianLaplace, ism::RootSift>(lessons.class_names, ism::training_set(lessons),
+                                                       {.box_classifier = std::nullopt, .calibrate = false});
+    const std::vector<ism::AnyExtractor> extractors = {model.extractor()};
+    ism::ThreadPool pool(0);
+    ism::FrameMatcher matcher(model, extractors, pool);
     std::vector<std::vector<ism::Vote<5>>> votes;
     for (const ism::DatasetImage& image : ism::read_dataset(data / "osd" / "val.json").images) {
         const ism::Frame frame = ism::read_frame(image);
-        auto found = ism::extract(frame.gray, model.extractor);
-        found.features = ism::with_depth(std::move(found.features), frame.depth_m);
-        votes.push_back(ism::cast_votes<FiveAxesAndClass>(
-            found.features, ism::match(model.codebook, found.descriptors), model.shapes,
-            {.width = double(frame.gray.width()),
-             .height = double(frame.gray.height()),
-             .min_scale = 0.2,
-             .max_scale = 4}));
+        votes.push_back(ism::cast_votes<FiveAxesAndClass>(matcher.scene(frame), ism::MatchMode::all,
+                                                          {.width = double(frame.gray.width()),
+                                                           .height = double(frame.gray.height()),
+                                                           .min_scale = 0.2,
+                                                           .max_scale = 4}));
     }
     return votes;
 }

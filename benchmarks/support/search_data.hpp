@@ -8,35 +8,30 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include "support/our_features.hpp"
 #include "support/photographs.hpp"
 
-#include "ism/codebook/byte_codebook.hpp"
 #include "ism/codebook/codebook.hpp"
-#include "ism/feature/byte_sift.hpp"
-#include "ism/train/train.hpp"
+#include "ism/train/train_options.hpp"
 
 namespace bench {
 
 constexpr std::size_t sift_size = ism::Sift::dimension;
-template <ism::DescriptorScalar Scalar>
-using WordsOf = ism::Codebook<sift_size, Scalar>;
-using Words = WordsOf<float>;
-template <ism::DescriptorScalar Scalar>
-using Rows = ism::Descriptors<Scalar, sift_size>;
+using Words = ism::Codebook;
+using Rows = ism::Descriptors<float>;
 
 /// @brief The squared distance that separates clusters by default, for descriptors of a squared length.
 [[nodiscard]] inline double default_max_sq_distance(double sq_length) {
-    return 2 * (1 - ism::TrainOptions{}.min_similarity) * sq_length;
+    return 2 * (1 - ism::CodebookOptions{}.min_similarity) * sq_length;
 }
 
 /// @brief SIFT descriptors of the images of some folders, at most `count`: an even part.
-[[nodiscard]] inline Rows<float> descriptors_of(std::span<const std::filesystem::path> folders,
-                                                std::size_t count) {
-    Rows<float> all;
+[[nodiscard]] inline Rows descriptors_of(std::span<const std::filesystem::path> folders, std::size_t count) {
+    Rows all(sift_size);
     for (const std::filesystem::path& folder : folders) {
         std::vector<std::filesystem::path> files;
         for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -52,7 +47,7 @@ using Rows = ism::Descriptors<Scalar, sift_size>;
                 all.push_back(found.descriptors.row(i));
         }
     }
-    Rows<float> part;
+    Rows part(sift_size);
     const std::size_t kept = std::min(count, all.size());
     for (std::size_t i = 0; i < kept; ++i) part.push_back(all.row(i * all.size() / kept));
     return part;
@@ -60,35 +55,41 @@ using Rows = ism::Descriptors<Scalar, sift_size>;
 
 /// @brief The first words of a codebook.
 [[nodiscard]] inline Words first_words(const Words& words, std::size_t count) {
-    Words part = words;
-    part.words.resize(count), part.mean_sq_length.resize(count), part.group.resize(count);
-    return part;
+    std::vector<std::uint32_t> first(count);
+    std::iota(first.begin(), first.end(), 0u);
+    return words.select(first);
 }
 
 /// @brief Each descriptor a word: what very large codebooks hold.
-[[nodiscard]] inline Words single_words(const Rows<float>& descriptors, double max_sq_distance) {
-    Words words{.words = descriptors, .mean_sq_length = {}, .group = {}, .max_sq_distance = max_sq_distance};
-    words.group.assign(descriptors.size(), 0);
+[[nodiscard]] inline Words single_words(const Rows& descriptors, double max_sq_distance) {
+    Words words(sift_size, max_sq_distance);
     for (std::size_t i = 0; i < descriptors.size(); ++i) {
         double sum = 0;
         for (const float value : descriptors.row(i)) sum += double(value) * value;
-        words.mean_sq_length.push_back(float(sum));
+        words.push_back({.mean = descriptors.row(i), .mean_sq_length = float(sum)});
     }
     return words;
 }
 
-/// @brief SIFT in bytes as ByteSift gives it, and words of such.
-[[nodiscard]] inline Rows<std::uint8_t> as_bytes(const Rows<float>& descriptors) {
-    Rows<std::uint8_t> bytes(descriptors.size());
-    std::transform(descriptors.values().begin(), descriptors.values().end(), bytes.values().begin(),
-                   [](float v) { return std::uint8_t(std::min(512 * v + 0.5f, 255.0f)); });
-    return bytes;
+/// @brief SIFT as ByteSift gives it: whole numbers from 0 to 255.
+[[nodiscard]] inline Rows as_bytes(Rows descriptors) {
+    for (float& value : descriptors.values()) value = std::floor(std::min(512 * value + 0.5f, 255.0f));
+    return descriptors;
 }
-[[nodiscard]] inline WordsOf<std::uint8_t> in_bytes(Words words) {
-    for (float& value : words.words.values()) value = std::min(512 * value, 255.0f);
-    for (float& value : words.mean_sq_length) value *= 512 * 512;
-    words.max_sq_distance *= 512 * 512;
-    return ism::in_bytes(words);
+
+/// @brief Words in the units of as_bytes().
+[[nodiscard]] inline Words in_byte_units(const Words& words) {
+    Words bytes(sift_size, 512 * 512 * words.max_sq_distance());
+    std::array<float, sift_size> mean;
+    for (std::size_t w = 0; w < words.size(); ++w) {
+        ism::Word word = words[w];
+        std::transform(word.mean.begin(), word.mean.end(), mean.begin(),
+                       [](float v) { return std::min(512 * v, 255.0f); });
+        word.mean = mean;
+        word.mean_sq_length *= 512 * 512;
+        bytes.push_back(word);
+    }
+    return bytes;
 }
 
 }  // namespace bench

@@ -32,7 +32,7 @@ namespace bench {
         const toy::ToyScene scene =
             toy::render_isolated(kind, int(c / kinds), view, {.width = 320, .height = 240});
         result.images[i] = {.frame = {.gray = ism::to_gray(scene.color)},
-                            .objects = {{.class_index = c,
+                            .objects = {{.class_index = std::uint32_t(c),
                                          .box = scene.objects.front().box,
                                          .mask = scene.objects.front().mask}},
                             .name = result.names[c]};
@@ -43,7 +43,7 @@ namespace bench {
         result.checks[i].frame = {.gray = ism::to_gray(scene.color)};
         for (const toy::ToyObject& object : scene.objects)
             result.checks[i].objects.push_back(
-                {.class_index = std::size_t(object.instance) * kinds + object.class_index,
+                {.class_index = std::uint32_t(std::size_t(object.instance) * kinds + object.class_index),
                  .box = object.box});
     });
     for (std::size_t i = 0; i < 8; ++i) result.frames.push_back(result.checks[i].frame);
