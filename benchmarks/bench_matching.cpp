@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 
-// Time of matching 960 descriptors by number of words and by vector unit, one thread; and of making an index.
+// Time of matching 960 descriptors by number of words and by instruction set, one thread; and of making an
+// index.
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -39,9 +40,9 @@ TEST_CASE("matching by number of words", "[!benchmark]") {
         codebook.group.assign(size, 0);
         codebook.max_sq_distance = 0.36;
         const std::string words = ism::join_text(", ", size, " words");
-        const auto bench = [&](const std::string& name, ism::VectorUnit unit) {
-            if (!ism::has_unit(unit)) return;
-            const ism::WordIndex<128> index(codebook, unit);
+        const auto bench = [&](const std::string& name, ism::InstructionSet isa) {
+            if (!ism::has_instruction_set(isa)) return;
+            const ism::WordIndex<128> index(codebook, isa);
             BENCHMARK(name + words) {
                 return ism::match(index, descriptors, 1).size();
             };
@@ -49,9 +50,9 @@ TEST_CASE("matching by number of words", "[!benchmark]") {
                 return ism::match(index, descriptors, 1, {.mode = ism::MatchMode::nearest}).size();
             };
         };
-        bench("any unit", ism::VectorUnit::any);
-        bench("AVX2", ism::VectorUnit::avx2);
-        bench("AVX-512 VNNI", ism::VectorUnit::avx512_vnni);
+        bench("plain loops", ism::InstructionSet::any);
+        bench("AVX2", ism::InstructionSet::avx2);
+        bench("AVX-512 VNNI", ism::InstructionSet::avx512_vnni);
         BENCHMARK("making the index" + words) {
             return ism::WordIndex<128>(codebook).size();
         };

@@ -321,7 +321,7 @@ TEST_CASE("the sieve passes what is near, whatever processor it runs on") {
     SieveStrip rows{{}, row_start.data(), row_bar.data()};
     for (std::size_t r = 0; r < sieve_rows; ++r) rows.numbers[r] = strip.data() + r * sieve_depth;
     const SievePanel columns{panel.data(), column_start.data(), column_bar.data()};
-    const SieveKernel kernel = SieveKernel::fastest();
+    const SieveKernel kernel(ism::best_instruction_set());
     const SievePassed passed = kernel.sieve(rows, columns), plain = sieve_plain(rows, columns);
     std::size_t compared = 0;
     for (std::size_t r = 0; r < sieve_rows; ++r)

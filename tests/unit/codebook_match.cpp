@@ -21,18 +21,18 @@ namespace {
 using ism::Codebook;
 using ism::Descriptors;
 using ism::DescriptorScalar;
+using ism::InstructionSet;
 using ism::Match;
 using ism::MatchMode;
-using ism::VectorUnit;
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-std::vector<VectorUnit> units_here() {
-    std::vector<VectorUnit> units;
-    for (const VectorUnit unit : {VectorUnit::any, VectorUnit::avx2, VectorUnit::avx512_vnni})
-        if (ism::has_unit(unit)) units.push_back(unit);
-    return units;
+std::vector<InstructionSet> instruction_sets_here() {
+    std::vector<InstructionSet> sets;
+    for (const InstructionSet isa : {InstructionSet::any, InstructionSet::avx2, InstructionSet::avx512_vnni})
+        if (ism::has_instruction_set(isa)) sets.push_back(isa);
+    return sets;
 }
 
 /// All matches by the definition of the distance, one pair after another.
@@ -62,15 +62,15 @@ std::vector<Match> naive_matches(const Codebook<Dimension, WordScalar>& codebook
     return all;
 }
 
-/// Every unit, numbers of threads and mode against the definition.
+/// Every instruction set, number of threads and mode against the definition.
 template <std::size_t Dimension, DescriptorScalar WordScalar, DescriptorScalar Scalar>
 std::size_t check_against_naive(const Codebook<Dimension, WordScalar>& codebook,
                                 const Descriptors<Scalar, Dimension>& descriptors) {
     const auto all = naive_matches(codebook, descriptors);
     const auto nearest = ism::nearest_only(all);
-    for (const VectorUnit unit : units_here()) {
-        CAPTURE(int(unit), codebook.size(), codebook.max_sq_distance, Dimension);
-        const ism::WordIndex<Dimension, WordScalar> index(codebook, unit);
+    for (const InstructionSet isa : instruction_sets_here()) {
+        CAPTURE(int(isa), codebook.size(), codebook.max_sq_distance, Dimension);
+        const ism::WordIndex<Dimension, WordScalar> index(codebook, isa);
         CHECK((ism::match(index, descriptors, 1) == all));
         CHECK((ism::match(index, descriptors, 2) == all));
         CHECK((ism::match(index, descriptors, 1, {.mode = MatchMode::nearest}) == nearest));
@@ -195,8 +195,8 @@ TEST_CASE("equal words and exact ties are matched alike, and the first is the ne
                                       {1, 2, quarter, false}, {1, 5, quarter, false}, {2, 1, third, true},
                                       {2, 3, third, false},   {2, 5, third, false},   {3, 3, half, false},
                                       {3, 4, half, true}};
-    for (const VectorUnit unit : units_here()) {
-        const ism::WordIndex<2> index(codebook, unit);
+    for (const InstructionSet isa : instruction_sets_here()) {
+        const ism::WordIndex<2> index(codebook, isa);
         CHECK((ism::match(index, descriptors) == expected));
         CHECK(
             (ism::match(index, descriptors, 1, {.mode = MatchMode::nearest}) == ism::nearest_only(expected)));
@@ -316,12 +316,13 @@ TEST_CASE("filters drop most of what is out of reach, and bytes are used where t
     const std::size_t hits = naive_matches(scene.codebook, scene.descriptors).size();
     REQUIRE(hits > 50);
     std::vector<double> sq_lengths;
-    const ism::WordIndex<128> any(scene.codebook, VectorUnit::any);
+    const ism::WordIndex<128> any(scene.codebook, InstructionSet::any);
     for (std::size_t i = 0; i < 96; ++i) sq_lengths.push_back(any.sq_length(scene.descriptors.row(i)));
-    for (const VectorUnit unit : units_here()) {
-        CAPTURE(int(unit));
-        const ism::WordIndex<128> index(scene.codebook, unit);
-        CHECK(std::holds_alternative<ism::detail::ByteFilter>(index.filter()) == (unit != VectorUnit::any));
+    for (const InstructionSet isa : instruction_sets_here()) {
+        CAPTURE(int(isa));
+        const ism::WordIndex<128> index(scene.codebook, isa);
+        CHECK(std::holds_alternative<ism::detail::ByteFilter>(index.filter()) ==
+              (isa != InstructionSet::any));
         std::size_t candidates = 0;
         std::visit(
             [&](const auto& filter) {
@@ -341,10 +342,10 @@ TEST_CASE("filters drop most of what is out of reach, and bytes are used where t
 
 TEST_CASE("byte kernels add up exactly, at the ends of their ranges too") {
     ism::Random random(13);
-    for (const VectorUnit unit : units_here()) {
-        auto* const kernel = ism::detail::byte_kernel(unit);
+    for (const InstructionSet isa : instruction_sets_here()) {
+        auto* const kernel = ism::detail::byte_kernel(isa);
         if (kernel == nullptr) continue;
-        const int levels = ism::detail::byte_levels(unit);
+        const int levels = ism::detail::byte_levels(isa);
         for (const std::size_t quads : {2u, 6u, 32u})
             for (const int pattern : {0, 1, 2}) {  // least, largest, random
                 const auto draw = [&] {
@@ -373,7 +374,7 @@ TEST_CASE("byte kernels add up exactly, at the ends of their ranges too") {
                         expected[i] |= std::uint64_t(sum > limits[i]) << j;
                     }
                 kernel({queries.data(), 12, quads, limits.data(), words.data(), bias.data(), masks.data()});
-                CAPTURE(int(unit), quads, pattern);
+                CAPTURE(int(isa), quads, pattern);
                 CHECK(masks == expected);
                 CHECK(((expected[0] >> 5 & 1) == 0 && (expected[1] >> 5 & 1) == 1));
             }

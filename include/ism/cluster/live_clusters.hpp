@@ -12,6 +12,7 @@
 #include "ism/cluster/sieve.hpp"
 #include "ism/cluster/sieve_heads.hpp"
 #include "ism/core/aligned.hpp"
+#include "ism/core/processor.hpp"
 #include "ism/core/thread_pool.hpp"
 
 namespace ism::detail {
@@ -93,7 +94,7 @@ private:
     std::vector<double> spread_;
     std::vector<std::uint32_t> size_;
     SieveHeads heads_;
-    SieveKernel kernel_ = SieveKernel::fastest();
+    SieveKernel kernel_{best_instruction_set()};
 };
 
 }  // namespace ism::detail

@@ -8,9 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#include "ism/core/processor.hpp"
+
+#if ISM_DETAIL_X86
 #include <immintrin.h>
-#define ISM_SIEVE_AVX2
 #endif
 
 namespace ism::detail {
@@ -60,10 +61,10 @@ using SievePassed = std::array<std::uint16_t, sieve_rows>;
     return ((parts[0] + parts[4]) + (parts[2] + parts[6])) + ((parts[1] + parts[5]) + (parts[3] + parts[7]));
 }
 
-#ifdef ISM_SIEVE_AVX2
+#if ISM_DETAIL_X86
 /// @brief sieve_plain() for processors with AVX2 and FMA.
-[[nodiscard]] __attribute__((target("avx2,fma"))) inline SievePassed sieve_avx2(const SieveStrip& strip,
-                                                                                const SievePanel& panel) {
+ISM_DETAIL_TARGET("avx2,fma")
+[[nodiscard]] inline SievePassed sieve_avx2(const SieveStrip& strip, const SievePanel& panel) {
     const __m256 start[2] = {_mm256_loadu_ps(panel.start), _mm256_loadu_ps(panel.start + 8)};
     __m256 sum[sieve_rows][2];
     for (std::size_t r = 0; r < sieve_rows; ++r)
@@ -90,9 +91,8 @@ using SievePassed = std::array<std::uint16_t, sieve_rows>;
 }
 
 /// @brief sq_difference_plain() for processors with AVX2 and FMA; rounds less.
-[[nodiscard]] __attribute__((target("avx2,fma"))) inline float sq_difference_avx2(const float* a,
-                                                                                  const float* b,
-                                                                                  std::size_t count) {
+ISM_DETAIL_TARGET("avx2,fma")
+[[nodiscard]] inline float sq_difference_avx2(const float* a, const float* b, std::size_t count) {
     __m256 even = _mm256_setzero_ps(), odd = even;
     std::size_t k = 0;
     for (; k + 16 <= count; k += 16) {
@@ -111,17 +111,15 @@ using SievePassed = std::array<std::uint16_t, sieve_rows>;
 }
 #endif
 
-/// @brief The functions above for the processor that runs this.
+/// @brief The functions above for an instruction set.
 struct SieveKernel {
     SievePassed (*sieve)(const SieveStrip&, const SievePanel&) = sieve_plain;
     float (*sq_difference)(const float*, const float*, std::size_t) = sq_difference_plain;
 
-    [[nodiscard]] static SieveKernel fastest() {
-#ifdef ISM_SIEVE_AVX2
-        if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-            return {sieve_avx2, sq_difference_avx2};
+    explicit SieveKernel([[maybe_unused]] InstructionSet isa) {
+#if ISM_DETAIL_X86
+        if (isa != InstructionSet::any) sieve = sieve_avx2, sq_difference = sq_difference_avx2;
 #endif
-        return {};
     }
 };
 

@@ -25,10 +25,11 @@ namespace ism {
 template <std::size_t Dimension, DescriptorScalar Scalar = float>
 class WordIndex {
 public:
-    /// @param unit  for tests and measurements: matches are the same bits for each, only the time differs
+    /// @param isa  for tests and measurements: matches are the same bits for each, only the time differs
     /// @throws Error for words or lengths that are not finite, lists of different lengths, a threshold that
-    /// is negative or NaN, or a unit that the processor lacks.
-    explicit WordIndex(const Codebook<Dimension, Scalar>& codebook, VectorUnit unit = best_unit());
+    /// is negative or NaN, or an instruction set that the processor lacks.
+    explicit WordIndex(const Codebook<Dimension, Scalar>& codebook,
+                       InstructionSet isa = best_instruction_set());
 
     /// @brief Number of words.
     [[nodiscard]] std::size_t size() const { return mean_sq_length_.size(); }
@@ -65,14 +66,14 @@ private:
 };
 
 template <std::size_t Dimension, DescriptorScalar Scalar>
-WordIndex<Dimension, Scalar>::WordIndex(const Codebook<Dimension, Scalar>& codebook, VectorUnit unit)
+WordIndex<Dimension, Scalar>::WordIndex(const Codebook<Dimension, Scalar>& codebook, InstructionSet isa)
     : words_(codebook.words.values().begin(), codebook.words.values().end()),
       mean_sq_length_(codebook.mean_sq_length),
       group_(codebook.group),
       max_sq_distance_(codebook.max_sq_distance),
-      length_(detail::exact_dot<float>(unit)),
-      dot_(detail::exact_dot<Scalar>(unit)) {
-    expect(has_unit(unit), "matching: vector unit", "one that the processor has", int(unit));
+      length_(detail::exact_dot<float>(isa)),
+      dot_(detail::exact_dot<Scalar>(isa)) {
+    expect(has_instruction_set(isa), "matching: instruction set", "one that the processor has", int(isa));
     expect(codebook.mean_sq_length.size() == codebook.size() && codebook.group.size() == codebook.size(),
            "matching: mean square lengths and groups of words", codebook.size(),
            lazy_text(codebook.mean_sq_length.size(), ", ", codebook.group.size()));
@@ -96,11 +97,11 @@ WordIndex<Dimension, Scalar>::WordIndex(const Codebook<Dimension, Scalar>& codeb
         group = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), group) - used.begin());
 
     // Bytes are faster where their rounding is small beside the threshold.
-    detail::ByteFilter bytes(words, mean_sq_length_, Dimension, unit);
+    detail::ByteFilter bytes(words, mean_sq_length_, Dimension, isa);
     if (bytes.slack() < max_sq_distance_ / 4)
         filter_ = std::move(bytes);
     else
-        filter_ = detail::FloatFilter(words, mean_sq_length_, Dimension, unit);
+        filter_ = detail::FloatFilter(words, mean_sq_length_, Dimension, isa);
 }
 
 }  // namespace ism
