@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 
-// Time of matching 960 descriptors by number of words and by vector unit, one thread; and of making an index.
+// Time of matching 960 descriptors by number of words and by vector isa, one thread; and of making an index.
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -39,16 +39,16 @@ TEST_CASE("matching by number of words", "[!benchmark]") {
         for (std::size_t i = 0; i < size; ++i)
             codebook.push_back({.mean = means.row(i), .mean_sq_length = 1});
         const std::string words = ism::join_text(", ", size, " words");
-        const auto bench = [&](const std::string& name, ism::VectorUnit unit) {
-            if (!ism::has_unit(unit)) return;
-            const ism::WordIndex index(codebook, unit);
+        const auto bench = [&](const std::string& name, ism::InstructionSet isa) {
+            if (!ism::has_instruction_set(isa)) return;
+            const ism::WordIndex index(codebook, isa);
             BENCHMARK(name + words) {
                 return ism::match(index, descriptors, pool).size();
             };
         };
-        bench("any unit", ism::VectorUnit::any);
-        bench("AVX2", ism::VectorUnit::avx2);
-        bench("AVX-512 VNNI", ism::VectorUnit::avx512_vnni);
+        bench("any isa", ism::InstructionSet::any);
+        bench("AVX2", ism::InstructionSet::avx2);
+        bench("AVX-512 VNNI", ism::InstructionSet::avx512_vnni);
         BENCHMARK("making the index" + words) {
             return ism::WordIndex(codebook).size();
         };

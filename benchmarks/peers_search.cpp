@@ -74,8 +74,8 @@ Rows first_rows(Rows rows, std::size_t count) {
 /// Ours on queries of one kind, beside each peer on plain SIFT.
 void compare(const std::string& name, const Words& words, const Rows& queries,
              const std::vector<bench::SearchPeer>& peers, const Words& peer_words, const Rows& peer_queries,
-             ism::VectorUnit unit, std::size_t rounds, std::vector<bench::Row>& rows) {
-    const ism::WordIndex index(words, unit);
+             ism::InstructionSet isa, std::size_t rounds, std::vector<bench::Row>& rows) {
+    const ism::WordIndex index(words, isa);
     ism::ThreadPool pool(1);
     const auto exact = exact_hits(words, queries), peer_exact = exact_hits(peer_words, peer_queries);
     const auto ours = ism::match(index, queries, pool);
@@ -112,7 +112,7 @@ int main(int argc, char** argv) try {
     fs::path json, data;
     std::size_t rounds = 5, queries_wanted = 2000, clustered = 40000;
     bool fast_only = false;
-    ism::VectorUnit unit = ism::best_unit();
+    ism::InstructionSet isa = ism::best_instruction_set();
     std::vector<std::size_t> sizes = {1000, 7000, 50000};
     CLI::App app("Time to find all words within the default threshold, ours beside other libraries.");
     app.add_option("--data", data, "folder of the real images");
@@ -122,11 +122,11 @@ int main(int argc, char** argv) try {
     app.add_option("--clustered", clustered, "number of descriptors to make words of")
         ->check(CLI::Range(1000, 1000000));
     app.add_option("--rounds", rounds, "measurements, their median counts")->check(CLI::Range(1, 1000));
-    app.add_option("--unit", unit, "vector unit of ours; without, the best there is")
+    app.add_option("--isa", isa, "instruction set of ours; without, the best there is")
         ->transform(CLI::CheckedTransformer(
-            std::map<std::string, ism::VectorUnit>{{"any", ism::VectorUnit::any},
-                                                   {"avx2", ism::VectorUnit::avx2},
-                                                   {"avx512_vnni", ism::VectorUnit::avx512_vnni}}));
+            std::map<std::string, ism::InstructionSet>{{"any", ism::InstructionSet::any},
+                                                       {"avx2", ism::InstructionSet::avx2},
+                                                       {"avx512_vnni", ism::InstructionSet::avx512_vnni}}));
     app.add_flag("--fast-only", fast_only, "leave out the peers that are slow to build or to ask");
     app.add_option("--json", json, "write the rows to this file");
     CLI11_PARSE(app, argc, argv);
@@ -156,9 +156,9 @@ int main(int argc, char** argv) try {
         const std::string name =
             std::to_string(words.size()) + (real ? " words" : " single descriptors as words");
         std::vector<bench::SearchPeer> peers = bench::search_peers(words, !fast_only);
-        compare(name + ", float", words, queries, peers, words, queries, unit, rounds, rows);
+        compare(name + ", float", words, queries, peers, words, queries, isa, rounds, rows);
         std::erase_if(peers, [](const bench::SearchPeer& peer) { return peer.slow; });
-        compare(name + ", bytes", bench::in_byte_units(words), bytes, peers, words, queries, unit, rounds,
+        compare(name + ", bytes", bench::in_byte_units(words), bytes, peers, words, queries, isa, rounds,
                 rows);
     }
     bench::print(rows);

@@ -27,10 +27,11 @@ std::vector<ism::TrainingImage> make_lessons(int toys) {
                 const ToyView view{.turn_deg = side * largest_turn_deg(c), .seed = lessons.size() + 1};
                 const ToyScene scene = render_isolated(c, instance, view, options);
                 const ToyObject& toy = scene.objects.front();
-                lessons.push_back(
-                    {.frame = to_frame(scene),
-                     .objects = {{.class_index = toy.class_index, .box = toy.box, .mask = toy.mask}},
-                     .name = class_names()[c] + " " + std::to_string(instance)});
+                lessons.push_back({.frame = to_frame(scene),
+                                   .objects = {{.class_index = std::uint32_t(toy.class_index),
+                                                .box = toy.box,
+                                                .mask = toy.mask}},
+                                   .name = class_names()[c] + " " + std::to_string(instance)});
             }
     return lessons;
 }

@@ -51,6 +51,15 @@ Points random_points(std::size_t count, std::size_t dimension, std::size_t centr
     return points;
 }
 
+/// Those of the machine that runs this.
+std::vector<ism::InstructionSet> instruction_sets() {
+    std::vector<ism::InstructionSet> sets;
+    for (const auto isa :
+         {ism::InstructionSet::any, ism::InstructionSet::avx2, ism::InstructionSet::avx512_vnni})
+        if (ism::has_instruction_set(isa)) sets.push_back(isa);
+    return sets;
+}
+
 struct Naive {
     std::vector<double> heights;
     std::vector<std::vector<std::uint32_t>> labels;  ///< after so many merges
@@ -321,7 +330,7 @@ TEST_CASE("the sieve passes what is near, whatever processor it runs on") {
     SieveStrip rows{{}, row_start.data(), row_bar.data()};
     for (std::size_t r = 0; r < sieve_rows; ++r) rows.numbers[r] = strip.data() + r * sieve_depth;
     const SievePanel columns{panel.data(), column_start.data(), column_bar.data()};
-    const SieveKernel kernel = SieveKernel::fastest();
+    const SieveKernel kernel(ism::best_instruction_set());
     const SievePassed passed = kernel.sieve(rows, columns), plain = sieve_plain(rows, columns);
     std::size_t compared = 0;
     for (std::size_t r = 0; r < sieve_rows; ++r)
@@ -336,14 +345,71 @@ TEST_CASE("the sieve passes what is near, whatever processor it runs on") {
             CHECK((plain[r] >> c & 1) == (above > 0));
         }
     CHECK(compared > 90);
-    for (const std::size_t count : {8u, 16u, 24u, 128u}) {
-        const auto a = normal(count), b = normal(count);
-        double sum = 0;
-        for (std::size_t k = 0; k < count; ++k)
-            sum += (double(a[k]) - double(b[k])) * (double(a[k]) - double(b[k]));
-        CHECK(kernel.sq_difference(a.data(), b.data(), count) == Approx(sum).epsilon(1e-5));
-        CHECK(sq_difference_plain(a.data(), b.data(), count) == Approx(sum).epsilon(1e-5));
-        CHECK(kernel.sq_difference(a.data(), b.data(), count) ==
-              kernel.sq_difference(b.data(), a.data(), count));
-    }
+}
+
+TEST_CASE("squared differences are the same bits for every instruction set") {
+    using namespace ism::detail;
+    ism::Random random(10);
+    for (const std::size_t count : {8u, 16u, 24u, 128u, 1000u})
+        for (const double size : {1e-22, 1.0, 1e15}) {
+            std::vector<float> a(count), b(count);
+            for (float& value : a) value = float(size * (1 + 0.1 * random.normal()));
+            for (float& value : b) value = float(size * (1 + 0.1 * random.normal()));
+            double sum = 0;
+            for (std::size_t k = 0; k < count; ++k)
+                sum += (double(a[k]) - double(b[k])) * (double(a[k]) - double(b[k]));
+            const float exact =
+                SieveKernel(ism::InstructionSet::any).sq_difference(a.data(), b.data(), count);
+            CHECK(exact == Approx(sum).epsilon(1e-6).margin(1e-45));
+            for (const ism::InstructionSet isa : instruction_sets()) {
+                const SieveKernel kernel(isa);
+                CHECK(kernel.sq_difference(a.data(), b.data(), count) == exact);
+                CHECK(kernel.sq_difference(b.data(), a.data(), count) == exact);
+                const float rough = kernel.rough_sq_difference(a.data(), b.data(), count);
+                CHECK(std::abs(rough - exact) <= rough_error(count) * exact + float(count) * 0x1p-126f);
+            }
+        }
+}
+
+TEST_CASE("a dendrogram is the same bits for every instruction set, near ties and all") {
+    ism::Random random(17);
+    std::vector<Points> sets{random_points(900, 128, 30, random), random_points(600, 40, 8, random, 1000),
+                             random_points(600, 6, 8, random)};
+    // all squared differences about 1, which float sums round one way or the other: each distance a near tie
+    Points corners{128, {}}, tiny = random_points(300, 50, 5, random), grid{3, {}}, ulps{64, {}};
+    for (std::size_t i = 0; i < 400 * 128; ++i)
+        corners.values.push_back(float((random.index(2) == 0 ? -0.5 : 0.5) + 1e-7 * random.normal()));
+    for (float& value : tiny.values) value *= 1e-22f;  // squares below the smallest normal float
+    for (int i = 0; i < 343; ++i)
+        grid.values.insert(grid.values.end(), {float(i % 7), float(i / 7 % 7), float(i / 49)});
+    for (std::size_t i = 0; i < 300 * 64; ++i)  // a last digit apart
+        ulps.values.push_back(1 + float(random.index(3)) * 0x1p-23f);
+    sets.insert(sets.end(), {corners, tiny, grid, ulps});
+    for (const Points& points : sets)
+        for (const double part : {0.3, 1.0}) {
+            const double height =
+                trace(points).merges[std::size_t(part * double(points.size() - 2))].sq_distance;
+            const ism::AverageLinkOptions options{.max_sq_distance = part < 1 ? height : infinity,
+                                                  .threads = 1,
+                                                  .isa = ism::InstructionSet::any};
+            const ism::MergeTrace plain = ism::trace_average_link(points.moments(), options);
+            CAPTURE(points.size(), points.dimension, part);
+            REQUIRE(plain.merges.size() > points.size() / 10);
+            for (const ism::InstructionSet isa : instruction_sets())
+                for (const unsigned threads : {1u, 2u}) {
+                    ism::AverageLinkOptions other = options;
+                    other.isa = isa, other.threads = threads;
+                    CHECK((ism::trace_average_link(points.moments(), other).merges == plain.merges));
+                }
+        }
+}
+
+TEST_CASE("merges are told in one order, whatever order they were made in") {
+    // two pairs, a third, and what joins the first two; all at distance 1
+    ism::MergeTrace made{.points = 6, .merges = {{4, 5, 2, 1}, {2, 3, 2, 1}, {0, 1, 2, 1}, {7, 8, 4, 1}}};
+    ism::MergeTrace again{.points = 6, .merges = {{0, 1, 2, 1}, {2, 3, 2, 1}, {6, 7, 4, 0.5}, {4, 5, 2, 1}}};
+    ism::detail::sort_merges(made);
+    ism::detail::sort_merges(again);
+    CHECK(made.merges == std::vector<ism::Merge>{{0, 1, 2, 1}, {2, 3, 2, 1}, {4, 5, 2, 1}, {6, 7, 4, 1}});
+    CHECK(again.merges == made.merges);
 }

@@ -19,16 +19,16 @@ namespace {
 
 using ism::Codebook;
 using ism::Descriptors;
+using ism::InstructionSet;
 using ism::Match;
-using ism::VectorUnit;
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-std::vector<VectorUnit> units_here() {
-    std::vector<VectorUnit> units;
-    for (const VectorUnit unit : {VectorUnit::any, VectorUnit::avx2, VectorUnit::avx512_vnni})
-        if (ism::has_unit(unit)) units.push_back(unit);
+std::vector<InstructionSet> instruction_sets_here() {
+    std::vector<InstructionSet> units;
+    for (const InstructionSet isa : {InstructionSet::any, InstructionSet::avx2, InstructionSet::avx512_vnni})
+        if (ism::has_instruction_set(isa)) units.push_back(isa);
     return units;
 }
 
@@ -61,9 +61,9 @@ std::vector<Match> naive_matches(const Codebook& codebook, const Descriptors<flo
 /// Every instruction set and numbers of threads against the definition.
 std::size_t check_against_naive(const Codebook& codebook, const Descriptors<float>& descriptors) {
     const auto all = naive_matches(codebook, descriptors);
-    for (const VectorUnit unit : units_here()) {
-        CAPTURE(int(unit), codebook.size(), codebook.max_sq_distance(), codebook.dimension());
-        const ism::WordIndex index(codebook, unit);
+    for (const InstructionSet isa : instruction_sets_here()) {
+        CAPTURE(int(isa), codebook.size(), codebook.max_sq_distance(), codebook.dimension());
+        const ism::WordIndex index(codebook, isa);
         for (const unsigned threads : {1u, 2u}) {
             ism::ThreadPool pool(threads);
             CHECK(ism::match(index, descriptors, pool) == all);
@@ -170,8 +170,8 @@ TEST_CASE("equal words and exact ties are matched alike, and the first is the ne
                                       {2, 3, third, false},   {2, 5, third, false},   {3, 3, half, false},
                                       {3, 4, half, true}};
     ism::ThreadPool pool(1);
-    for (const VectorUnit unit : units_here())
-        CHECK(ism::match(ism::WordIndex(codebook, unit), descriptors, pool) == expected);
+    for (const InstructionSet isa : instruction_sets_here())
+        CHECK(ism::match(ism::WordIndex(codebook, isa), descriptors, pool) == expected);
 
     // the same in bytes: a lattice whose points are all at the same few distances
     ism::Random random(5);
@@ -291,12 +291,13 @@ TEST_CASE("filters drop most of what is out of reach, and bytes are used where t
     const std::size_t hits = naive_matches(scene.codebook(), scene.descriptors).size();
     REQUIRE(hits > 50);
     std::vector<double> sq_lengths;
-    const ism::WordIndex any(scene.codebook(), VectorUnit::any);
+    const ism::WordIndex any(scene.codebook(), InstructionSet::any);
     for (std::size_t i = 0; i < 96; ++i) sq_lengths.push_back(any.sq_length(scene.descriptors.row(i).data()));
-    for (const VectorUnit unit : units_here()) {
-        CAPTURE(int(unit));
-        const ism::WordIndex index(scene.codebook(), unit);
-        CHECK(std::holds_alternative<ism::detail::ByteFilter>(index.filter()) == (unit != VectorUnit::any));
+    for (const InstructionSet isa : instruction_sets_here()) {
+        CAPTURE(int(isa));
+        const ism::WordIndex index(scene.codebook(), isa);
+        CHECK(std::holds_alternative<ism::detail::ByteFilter>(index.filter()) ==
+              (isa != InstructionSet::any));
         std::size_t candidates = 0;
         std::visit(
             [&](const auto& filter) {
@@ -316,10 +317,10 @@ TEST_CASE("filters drop most of what is out of reach, and bytes are used where t
 
 TEST_CASE("byte kernels add up exactly, at the ends of their ranges too") {
     ism::Random random(13);
-    for (const VectorUnit unit : units_here()) {
-        auto* const kernel = ism::detail::byte_kernel(unit);
+    for (const InstructionSet isa : instruction_sets_here()) {
+        auto* const kernel = ism::detail::byte_kernel(isa);
         if (kernel == nullptr) continue;
-        const int levels = ism::detail::byte_levels(unit);
+        const int levels = ism::detail::byte_levels(isa);
         for (const std::size_t quads : {2u, 6u, 32u})
             for (const int pattern : {0, 1, 2}) {  // least, largest, random
                 const auto draw = [&] {
@@ -348,7 +349,7 @@ TEST_CASE("byte kernels add up exactly, at the ends of their ranges too") {
                         expected[i] |= std::uint64_t(sum > limits[i]) << j;
                     }
                 kernel({queries.data(), 12, quads, limits.data(), words.data(), bias.data(), masks.data()});
-                CAPTURE(int(unit), quads, pattern);
+                CAPTURE(int(isa), quads, pattern);
                 CHECK(masks == expected);
                 CHECK(((expected[0] >> 5 & 1) == 0 && (expected[1] >> 5 & 1) == 1));
             }

@@ -9,6 +9,7 @@
 #include "ism/cluster/merge_trace.hpp"
 #include "ism/cluster/reciprocal_merging.hpp"
 #include "ism/core/error.hpp"
+#include "ism/core/processor.hpp"
 
 namespace ism {
 
@@ -18,16 +19,17 @@ struct AverageLinkOptions {
     std::size_t settled = 0;  ///< so many first clusters are known to lie further apart than that from each
                               ///< other, as those that an earlier run left do: they are not compared
     unsigned threads = 0;     ///< 0 = all the machine has
+    InstructionSet isa = best_instruction_set();  ///< for tests: the merges are the same bits for each
 };
 
 /// @brief Average-link agglomerative clustering by squared Euclidean distance (the mean over all pairs of two
 /// clusters' points), from clusters on: the dendrogram up to a distance. All reciprocal nearest neighbours of
 /// a round are merged at once, which for average link gives the same clusters as merging the closest pair
 /// again and again (Benzécri 1982; Leibe, Leonardis, Schiele 2008, appendix). At most O(N² d) time a round,
-/// in practice little more than one search of all pairs; O(N d) memory. The same for any number of threads;
-/// among equal distances the choice is arbitrary.
+/// in practice little more than one search of all pairs; O(N d) memory. The same bits for any number
+/// of threads and on every processor; among equal distances the choice is arbitrary.
 /// @throws Error as check_moments() does, for a largest distance that is negative or NaN, and for more
-/// settled clusters than there are.
+/// settled clusters than there are, or an instruction set that the processor lacks.
 [[nodiscard]] inline MergeTrace trace_average_link(const ClusterMoments& start,
                                                    const AverageLinkOptions& options = {}) {
     check_moments(start);
@@ -35,7 +37,11 @@ struct AverageLinkOptions {
            options.max_sq_distance);
     expect(options.settled <= start.size(), "clustering: number of settled clusters",
            lazy_text("at most ", start.size()), options.settled);
-    return detail::ReciprocalMerging(start, options.max_sq_distance, options.settled, options.threads).run();
+    expect(has_instruction_set(options.isa), "clustering: instruction set", "one that the processor has",
+           int(options.isa));
+    return detail::ReciprocalMerging(start, options.max_sq_distance, options.settled, options.threads,
+                                     options.isa)
+        .run();
 }
 
 }  // namespace ism

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -64,19 +65,27 @@ struct MergeTrace {
 
 namespace detail {
 
-/// Brings merges that were made in any order, children before parents, into the order of their distances.
+/// Brings merges that were made in any order, children before parents, into the order of their distances, of
+/// equal ones of their sizes and then first points: whatever order they were made in, the result is the same.
 /// Rounding may leave a merge a hair nearer than one that made its clusters: it then gets that one's.
 inline void sort_merges(MergeTrace& trace) {
     std::vector<Merge>& merges = trace.merges;
-    for (Merge& merge : merges)
-        for (const std::uint32_t part : {merge.first, merge.second})
-            if (part >= trace.points)
-                merge.sq_distance = std::max(merge.sq_distance, merges[part - trace.points].sq_distance);
-    std::vector<std::uint32_t> order(merges.size()), renamed(merges.size());
+    std::vector<std::uint32_t> first_point(merges.size()), order(merges.size()), renamed(merges.size());
+    for (std::size_t t = 0; t < merges.size(); ++t) {
+        first_point[t] = trace.points;
+        for (const std::uint32_t part : {merges[t].first, merges[t].second}) {
+            const bool point = part < trace.points;
+            first_point[t] = std::min(first_point[t], point ? part : first_point[part - trace.points]);
+            if (!point)
+                merges[t].sq_distance =
+                    std::max(merges[t].sq_distance, merges[part - trace.points].sq_distance);
+        }
+    }
     std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return merges[a].sq_distance < merges[b].sq_distance;
-    });
+    const auto key = [&](std::uint32_t t) {  // a merge is larger than those that made its clusters
+        return std::tuple(merges[t].sq_distance, merges[t].size, first_point[t]);
+    };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     std::vector<Merge> sorted;
     sorted.reserve(merges.size());
     for (const std::uint32_t t : order) {

@@ -102,7 +102,8 @@ private:
             strip.numbers[r] = live_.head(slot_[row + r] == none ? slot_[row] : slot_[row + r]);
         if (within) first = row / sieve_columns * sieve_columns;
         for (; first < last; first += block) {
-            // first what passes, then distances, then lists: each a loop without surprises
+            // first what passes, then distances, then lists: each a loop without surprises. What passes, and
+            // the bound below, depend on the instruction set; what comes on lists does not.
             std::array<Pair, sieve_rows * block> pairs;
             std::size_t count = 0;
             for (std::size_t column = first; column < std::min(last, first + block);
@@ -114,9 +115,16 @@ private:
                     for (unsigned left = passed[r]; left != 0; left &= left - 1) {
                         const std::size_t c = column + std::size_t(std::countr_zero(left));
                         pairs[count] = {std::uint32_t(row + r), std::uint32_t(c), 0};
-                        count += !within || c > row + r;
+                        count += (!within || c > row + r) && std::min(row + r, c) < settled_from_;
                     }
             }
+            std::size_t near = 0;
+            for (const Pair& pair : std::span(pairs.data(), count)) {
+                const float least = live_.sq_distance_bound(slot_[pair.row], slot_[pair.column]);
+                pairs[near] = pair;
+                near += -0.5f * least >= std::min(bar_[pair.row], bar_[pair.column]);
+            }
+            count = near;
             for (Pair& pair : std::span(pairs.data(), count))
                 pair.sq_distance = live_.sq_distance(slot_[pair.row], slot_[pair.column]);
             for (const Pair& pair : std::span(pairs.data(), count)) {

@@ -15,6 +15,7 @@
 #include "ism/cluster/merge_trace.hpp"
 #include "ism/cluster/near_lists.hpp"
 #include "ism/cluster/near_search.hpp"
+#include "ism/core/processor.hpp"
 #include "ism/core/thread_pool.hpp"
 
 namespace ism::detail {
@@ -28,10 +29,10 @@ class ReciprocalMerging {
 public:
     /// The first `settled` clusters are known to lie further apart than `max_sq_distance`.
     ReciprocalMerging(const ClusterMoments& start, double max_sq_distance, std::size_t settled,
-                      unsigned threads)
+                      unsigned threads, InstructionSet isa = best_instruction_set())
         : pool_(threads),
           settled_(settled),
-          live_(start, pool_),
+          live_(start, pool_, isa),
           lists_(start.size(), NearLists::limit_of(max_sq_distance)),
           merged_(start.size()),
           alive_(live_.spatial_order()),
@@ -91,7 +92,9 @@ private:
             // rounding took the pair away that must be there: the nearest two
             const std::uint32_t i =
                 *std::min_element(alive_.begin(), alive_.end(), [&](std::uint32_t a, std::uint32_t b) {
-                    return lists_.of(a).front().sq_distance < lists_.of(b).front().sq_distance;
+                    const float of_a = lists_.of(a).front().sq_distance,
+                                of_b = lists_.of(b).front().sq_distance;
+                    return of_a < of_b || (of_a == of_b && a < b);
                 });
             pairs_.emplace_back(std::minmax(i, nearest(i)));
         }

@@ -8,9 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#include "ism/core/processor.hpp"
+
+#if ISM_DETAIL_X86
 #include <immintrin.h>
-#define ISM_SIEVE_AVX2
 #endif
 
 namespace ism::detail {
@@ -51,19 +52,42 @@ using SievePassed = std::array<std::uint16_t, sieve_rows>;
     return passed;
 }
 
-/// @brief The sum of squared differences, in eight parts; the same for (a, b) and (b, a). `count` is a
-/// multiple of 8.
-[[nodiscard]] inline float sq_difference_plain(const float* a, const float* b, std::size_t count) {
+/// The sum of squared differences, the same for (a, b) and (b, a). `count` is a multiple of 8. A difference
+/// is rounded to float once; its square is exact in double, so that a fused multiply-add rounds like two
+/// steps, and eight sums are added in one order: the same bits for every instruction set.
+ISM_DETAIL_INLINE float sq_difference_body(const float* a, const float* b, std::size_t count) {
+    constexpr std::size_t lanes = 8;
+    double sum[lanes] = {};
+    for (std::size_t k = 0; k < count; k += lanes)
+        for (std::size_t l = 0; l < lanes; ++l) {
+            const float difference = a[k + l] - b[k + l];
+            sum[l] += double(difference) * double(difference);
+        }
+    return float(((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7])));
+}
+
+[[nodiscard]] inline float sq_difference_any(const float* a, const float* b, std::size_t count) {
+    return sq_difference_body(a, b, count);
+}
+
+/// About the same in float, with rounding that depends on the instruction set: the relative error is below
+/// rough_error(count), beside an absolute one of numbers that float cannot hold.
+[[nodiscard]] inline float rough_sq_difference_any(const float* a, const float* b, std::size_t count) {
     std::array<float, 8> parts{};
     for (std::size_t k = 0; k < count; k += 8)
         for (std::size_t j = 0; j < 8; ++j) parts[j] += (a[k + j] - b[k + j]) * (a[k + j] - b[k + j]);
     return ((parts[0] + parts[4]) + (parts[2] + parts[6])) + ((parts[1] + parts[5]) + (parts[3] + parts[7]));
 }
 
-#ifdef ISM_SIEVE_AVX2
+/// For each of `count` / 8 products and sums, and as many again for the rest, half a last digit.
+[[nodiscard]] constexpr float rough_error(std::size_t count) {
+    return float(count / 4 + 16) * 0x1p-24f;
+}
+
+#if ISM_DETAIL_X86
 /// @brief sieve_plain() for processors with AVX2 and FMA.
-[[nodiscard]] __attribute__((target("avx2,fma"))) inline SievePassed sieve_avx2(const SieveStrip& strip,
-                                                                                const SievePanel& panel) {
+ISM_DETAIL_TARGET("avx2,fma")
+inline SievePassed sieve_avx2(const SieveStrip& strip, const SievePanel& panel) {
     const __m256 start[2] = {_mm256_loadu_ps(panel.start), _mm256_loadu_ps(panel.start + 8)};
     __m256 sum[sieve_rows][2];
     for (std::size_t r = 0; r < sieve_rows; ++r)
@@ -89,10 +113,14 @@ using SievePassed = std::array<std::uint16_t, sieve_rows>;
     return passed;
 }
 
-/// @brief sq_difference_plain() for processors with AVX2 and FMA; rounds less.
-[[nodiscard]] __attribute__((target("avx2,fma"))) inline float sq_difference_avx2(const float* a,
-                                                                                  const float* b,
-                                                                                  std::size_t count) {
+ISM_DETAIL_TARGET("avx2,fma")
+inline float sq_difference_avx2(const float* a, const float* b, std::size_t count) {
+    return sq_difference_body(a, b, count);
+}
+
+/// @brief rough_sq_difference_any() for processors with AVX2 and FMA.
+ISM_DETAIL_TARGET("avx2,fma")
+inline float rough_sq_difference_avx2(const float* a, const float* b, std::size_t count) {
     __m256 even = _mm256_setzero_ps(), odd = even;
     std::size_t k = 0;
     for (; k + 16 <= count; k += 16) {
@@ -111,17 +139,19 @@ using SievePassed = std::array<std::uint16_t, sieve_rows>;
 }
 #endif
 
-/// @brief The functions above for the processor that runs this.
+/// @brief The functions above for an instruction set.
 struct SieveKernel {
     SievePassed (*sieve)(const SieveStrip&, const SievePanel&) = sieve_plain;
-    float (*sq_difference)(const float*, const float*, std::size_t) = sq_difference_plain;
+    float (*sq_difference)(const float*, const float*, std::size_t) = sq_difference_any;
+    float (*rough_sq_difference)(const float*, const float*, std::size_t) = rough_sq_difference_any;
 
-    [[nodiscard]] static SieveKernel fastest() {
-#ifdef ISM_SIEVE_AVX2
-        if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-            return {sieve_avx2, sq_difference_avx2};
+    explicit SieveKernel([[maybe_unused]] InstructionSet isa) {
+#if ISM_DETAIL_X86
+        if (isa == InstructionSet::any) return;
+        sieve = sieve_avx2;
+        sq_difference = sq_difference_avx2;
+        rough_sq_difference = rough_sq_difference_avx2;
 #endif
-        return {};
     }
 };
 

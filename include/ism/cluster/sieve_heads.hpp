@@ -70,9 +70,10 @@ public:
 
     [[nodiscard]] const float* of(std::size_t i) const { return numbers_.data() + i * sieve_depth; }
 
-    /// Half of the mean squared length of a cluster with that spread; less by more than rounding may do.
+    /// Half of the mean squared length of a cluster with that spread; less by more than rounding may do, also
+    /// where squares are too small for a float.
     [[nodiscard]] float half_square(std::size_t i, double spread) const {
-        return float(0.5 * (1 - 1e-5) * (sq_length_[i] + spread));
+        return float(0.5 * (1 - 1e-5) * (sq_length_[i] + spread) - 0x1p-118);
     }
 
     /// All clusters, near ones together.

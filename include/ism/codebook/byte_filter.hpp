@@ -35,7 +35,7 @@ public:
     };
 
     ByteFilter(std::span<const float> words, std::span<const float> mean_sq_length, std::size_t dimension,
-               VectorUnit unit);
+               InstructionSet isa);
 
     /// How far the bounds may lie from the squared distances, about; infinite where bytes cannot do.
     [[nodiscard]] double slack() const { return slack_; }
@@ -82,11 +82,11 @@ private:
 };
 
 inline ByteFilter::ByteFilter(std::span<const float> words, std::span<const float> mean_sq_length,
-                              std::size_t dimension, VectorUnit unit)
-    : dimension_(dimension), padded_((dimension + 7) / 8 * 8), kernel_(byte_kernel(unit)) {
+                              std::size_t dimension, InstructionSet isa)
+    : dimension_(dimension), padded_((dimension + 7) / 8 * 8), kernel_(byte_kernel(isa)) {
     const std::size_t count = mean_sq_length.size(), room = filter_groups(count) * filter_group;
     if (kernel_ == nullptr || count == 0 || dimension > 16384) return;
-    scale_ = byte_scale(words, byte_levels(unit));
+    scale_ = byte_scale(words, byte_levels(isa));
     if (!(scale_.step > 1e-12 && scale_.step < 1e12)) return;
     const int half = scale_.levels / 2;
     middle_ = scale_.least + scale_.step * half;

@@ -9,6 +9,10 @@
 #include "ism/codebook/filter.hpp"
 #include "ism/core/processor.hpp"
 
+#if ISM_DETAIL_X86
+#include <immintrin.h>
+#endif
+
 namespace ism::detail {
 
 /// One group of words against queries in bytes: bit j of masks[i] is set where
@@ -25,16 +29,16 @@ struct ByteTask {
     std::uint64_t* masks;
 };
 
-#if ISM_X86_UNITS
+#if ISM_DETAIL_X86
 
-[[nodiscard]] ISM_INLINE std::int32_t four_bytes(const std::uint8_t* from) {
+[[nodiscard]] ISM_DETAIL_INLINE std::int32_t four_bytes(const std::uint8_t* from) {
     std::int32_t four;
     std::memcpy(&four, from, sizeof(four));
     return four;
 }
 
 /// Six queries and 64 words at a time: 24 sums in registers.
-ISM_TARGET("avx512f,avx512bw,avx512vnni")
+ISM_DETAIL_TARGET("avx512f,avx512bw,avx512vnni")
 inline void filter_bytes_avx512_vnni(const ByteTask& task) {
     constexpr std::size_t rows = 6, parts = 4;
     static_assert(filter_block % rows == 0);
@@ -72,7 +76,7 @@ inline void filter_bytes_avx512_vnni(const ByteTask& task) {
 
 /// Four queries and 16 words at a time. Two products of 7 bits by 7 fit into 16 bits even when added, so that
 /// only every other sum is widened.
-ISM_TARGET("avx2,fma")
+ISM_DETAIL_TARGET("avx2,fma")
 inline void filter_bytes_avx2(const ByteTask& task) {
     constexpr std::size_t rows = 4, parts = 2, strips = filter_group / (8 * parts);
     static_assert(filter_block % rows == 0);
@@ -123,18 +127,18 @@ inline void filter_bytes_avx2(const ByteTask& task) {
 
 using FilterBytes = void(const ByteTask&);
 
-/// The kernel of a unit, none where it has none for bytes.
-[[nodiscard]] inline FilterBytes* byte_kernel([[maybe_unused]] VectorUnit unit) {
-#if ISM_X86_UNITS
-    if (unit == VectorUnit::avx512_vnni) return filter_bytes_avx512_vnni;
-    if (unit == VectorUnit::avx2) return filter_bytes_avx2;
+/// The kernel for an instruction set, none where it has none for bytes.
+[[nodiscard]] inline FilterBytes* byte_kernel([[maybe_unused]] InstructionSet isa) {
+#if ISM_DETAIL_X86
+    if (isa == InstructionSet::avx512_vnni) return filter_bytes_avx512_vnni;
+    if (isa == InstructionSet::avx2) return filter_bytes_avx2;
 #endif
     return nullptr;
 }
 
-/// How many numbers a byte may stand for with the kernel of a unit.
-[[nodiscard]] constexpr int byte_levels(VectorUnit unit) {
-    return unit == VectorUnit::avx512_vnni ? 256 : 128;
+/// How many numbers a byte may stand for with the kernel of an instruction set.
+[[nodiscard]] constexpr int byte_levels(InstructionSet isa) {
+    return isa == InstructionSet::avx512_vnni ? 256 : 128;
 }
 
 }  // namespace ism::detail

@@ -45,8 +45,9 @@ struct ByteRounding {
 
 /// Writes a whole number of eights as bytes and adds to what was lost, squared where it is a length. It is
 /// taken from the bytes, so that rounding itself may err.
-ISM_INLINE void round_eights(const float* __restrict row, const double* __restrict centre, std::size_t size,
-                             const ByteScale& scale, std::uint8_t* __restrict bytes, ByteRounding& lost) {
+ISM_DETAIL_INLINE void round_eights(const float* __restrict row, const double* __restrict centre,
+                                    std::size_t size, const ByteScale& scale, std::uint8_t* __restrict bytes,
+                                    ByteRounding& lost) {
     const double origin = scale.least, step = scale.step;
     const float least = float(origin), factor = float(1 / step), top = float(scale.levels - 1);
     for (std::size_t k = 0; k < size; ++k) {
@@ -70,8 +71,8 @@ ISM_INLINE void round_eights(const float* __restrict row, const double* __restri
 }
 
 /// Writes a row of numbers as bytes.
-#if ISM_X86_UNITS
-ISM_TARGET("avx2,fma")
+#if ISM_DETAIL_X86
+ISM_DETAIL_TARGET("avx2,fma")
 #endif
 inline ByteRounding round_row(std::span<const float> row, const double* centre, const ByteScale& scale,
                               std::uint8_t* bytes) {

@@ -13,7 +13,7 @@ namespace ism::detail {
 /// a byte, is exact in double, so that a
 /// fused multiply-add rounds like two steps: the same bits on every processor.
 template <DescriptorScalar T>
-ISM_INLINE double dot_body(const float* a, const T* b, std::size_t size) {
+ISM_DETAIL_INLINE double dot_body(const float* a, const T* b, std::size_t size) {
     constexpr std::size_t lanes = 8;
     double sum[lanes] = {};
     std::size_t k = 0;
@@ -31,19 +31,19 @@ double dot_any(const float* a, const T* b, std::size_t size) {
     return dot_body(a, b, size);
 }
 
-#if ISM_X86_UNITS
+#if ISM_DETAIL_X86
 template <DescriptorScalar T>
-ISM_TARGET("avx2,fma")
+ISM_DETAIL_TARGET("avx2,fma")
 double dot_avx2(const float* a, const T* b, std::size_t size) {
     return dot_body(a, b, size);
 }
 #endif
 
-/// The dot product of two rows in double, its bits the same for every unit.
+/// The dot product of two rows in double, its bits the same for every instruction set.
 template <DescriptorScalar T>
-[[nodiscard]] Dot<T>* exact_dot([[maybe_unused]] VectorUnit unit) {
-#if ISM_X86_UNITS
-    if (unit != VectorUnit::any) return dot_avx2<T>;
+[[nodiscard]] Dot<T>* exact_dot([[maybe_unused]] InstructionSet isa) {
+#if ISM_DETAIL_X86
+    if (isa != InstructionSet::any) return dot_avx2<T>;
 #endif
     return dot_any<T>;
 }

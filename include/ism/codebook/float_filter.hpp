@@ -27,12 +27,12 @@ public:
 
     FloatFilter() = default;
     FloatFilter(std::span<const float> words, std::span<const float> mean_sq_length, std::size_t dimension,
-                VectorUnit unit)
-        : dimension_(dimension), kernel_(float_kernel(unit)) {
+                InstructionSet isa)
+        : dimension_(dimension), kernel_(float_kernel(isa)) {
         const std::size_t count = mean_sq_length.size();
         panels_.assign(filter_groups(count) * filter_group * dimension, 0.0f);
         bias_.assign(filter_groups(count) * filter_group, 0.0f);
-        Dot<float>* const dot = exact_dot<float>(unit);
+        Dot<float>* const dot = exact_dot<float>(isa);
         double sq_length = 0;
         for (std::size_t w = 0; w < count; ++w) {
             const float* word = words.data() + w * dimension;

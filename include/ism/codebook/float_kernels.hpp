@@ -31,7 +31,7 @@ concept FloatLanes = sizeof(T) % sizeof(float) == 0 && requires(T lanes, float f
 
 /// `Rows` queries and 16 words at a time stay in registers.
 template <FloatLanes Lanes, std::size_t Rows>
-ISM_INLINE void filter_floats_body(const FloatTask& task) {
+ISM_DETAIL_INLINE void filter_floats_body(const FloatTask& task) {
     constexpr std::size_t words = 16, lanes = sizeof(Lanes) / sizeof(float), parts = words / lanes;
     static_assert(filter_tile % Rows == 0);
     std::fill_n(task.masks, task.count, std::uint64_t(0));
@@ -87,17 +87,17 @@ inline void filter_floats_any(const FloatTask& task) {
 }
 #endif
 
-#if ISM_X86_UNITS
-ISM_TARGET("avx2,fma")
+#if ISM_DETAIL_X86
+ISM_DETAIL_TARGET("avx2,fma")
 inline void filter_floats_avx2(const FloatTask& task) {
     filter_floats_body<EightFloats, 6>(task);
 }
 #endif
 
-/// The kernel of a unit.
-[[nodiscard]] inline FilterFloats* float_kernel([[maybe_unused]] VectorUnit unit) {
-#if ISM_X86_UNITS
-    if (unit != VectorUnit::any) return filter_floats_avx2;
+/// The kernel for an instruction set.
+[[nodiscard]] inline FilterFloats* float_kernel([[maybe_unused]] InstructionSet isa) {
+#if ISM_DETAIL_X86
+    if (isa != InstructionSet::any) return filter_floats_avx2;
 #endif
     return filter_floats_any;
 }

@@ -23,17 +23,17 @@ namespace ism {
 /// what it needs of the codebook, which may go. May be asked from several threads at once.
 class WordIndex {
 public:
-    /// @param unit  for tests and measurements: matches are the same bits for each, only the time differs
-    /// @throws Error for words or lengths that are not finite, a threshold that is negative or NaN, or a unit
-    /// that the processor lacks.
-    explicit WordIndex(const Codebook& codebook, VectorUnit unit = best_unit())
+    /// @param isa  for tests and measurements: matches are the same bits for each, only the time differs
+    /// @throws Error for words or lengths that are not finite, a threshold that is negative or NaN, or an
+    /// instruction set that the processor lacks.
+    explicit WordIndex(const Codebook& codebook, InstructionSet isa = best_instruction_set())
         : words_(codebook.means().values().begin(), codebook.means().values().end()),
           mean_sq_lengths_(codebook.mean_sq_lengths().begin(), codebook.mean_sq_lengths().end()),
           groups_(codebook.groups().begin(), codebook.groups().end()),
           dimension_(codebook.dimension()),
           max_sq_distance_(codebook.max_sq_distance()) {
-        expect(has_unit(unit), "matching: vector unit", "one that the processor has", int(unit));
-        dot_ = detail::exact_dot<float>(unit);
+        expect(has_instruction_set(isa), "matching: instruction set", "one that the processor has", int(isa));
+        dot_ = detail::exact_dot<float>(isa);
         expect(max_sq_distance_ >= 0, "matching: largest squared distance", "0 or more", max_sq_distance_);
         for (const std::span<const float> values :
              {std::span<const float>(words_), std::span<const float>(mean_sq_lengths_)}) {
@@ -43,11 +43,11 @@ public:
         }
         number_groups();
         // Bytes are faster where their rounding is small beside the threshold.
-        detail::ByteFilter bytes(words_, mean_sq_lengths_, dimension_, unit);
+        detail::ByteFilter bytes(words_, mean_sq_lengths_, dimension_, isa);
         if (bytes.slack() < max_sq_distance_ / 4)
             filter_ = std::move(bytes);
         else
-            filter_ = detail::FloatFilter(words_, mean_sq_lengths_, dimension_, unit);
+            filter_ = detail::FloatFilter(words_, mean_sq_lengths_, dimension_, isa);
     }
 
     /// @brief Number of words.
