@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -191,6 +193,23 @@ TEST_CASE("brightness of another unit is refused with its place, by extractor an
     }
     image(7, 29) = 100, image(8, 29) = -100;
     CHECK_NOTHROW(ism::extract(image.view(), ism::Extractor<ism::HessianLaplace, ism::Sift>{}));
+}
+
+TEST_CASE("a feature that is nowhere has a descriptor of zeros") {
+    ism::ScaleSpace space;
+    space.build(noise(40, 40, 2).view());
+    std::array<float, 128> row;
+    for (const float value : {NAN, INFINITY, -INFINITY, 3e38f, -3e38f})
+        for (float ism::Feature::*field : {&ism::Feature::x, &ism::Feature::y, &ism::Feature::scale}) {
+            ism::Feature f{.x = 20, .y = 20, .scale = 2};
+            f.*field = value;
+            if (field == &ism::Feature::scale && value < 0) continue;
+            row.fill(1);
+            ism::Sift{}.describe(space, f, row);
+            CHECK(std::count(row.begin(), row.end(), 0.0f) == 128);
+        }
+    ism::Sift{}.describe(space, {.x = 20, .y = 20, .scale = 2, .angle = NAN}, row);
+    CHECK(std::count(row.begin(), row.end(), 0.0f) == 128);
 }
 
 TEST_CASE("resized images have a largest size") {

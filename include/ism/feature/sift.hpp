@@ -39,9 +39,11 @@ public:
           turn_(std::remainder(angle, 2 * std::numbers::pi_v<float>) * per_radian) {}
 
     void histogram(std::span<float, sift_size> out) {
-        const int y1 = last_at(y_, reach_, image_.height());
-        for (int y = first_at(y_, -reach_, image_.height()); y <= y1; ++y) add_row(y);
-        share_out();
+        if (std::fabs(x_) < too_far && std::fabs(y_) < too_far && reach_ < too_far) {  // not for NaN
+            const int y1 = last_at(y_, image_.height());
+            for (int y = first_at(y_); y <= y1; ++y) add_row(y);
+            share_out();
+        }
         for (int v = 0; v < sift_cells; ++v)
             for (int u = 0; u < sift_cells; ++u) {
                 const std::size_t cell = std::size_t((v + 1) * padded + u + 1) * bins;
@@ -55,15 +57,15 @@ public:
 private:
     static constexpr int padded = sift_cells + 2, bins = sift_angles + 1;  // the last bin is the first
     static constexpr float per_radian = sift_angles / (2 * std::numbers::pi_v<float>);
+    static constexpr float too_far = 1e6f;  // pixels: a window of which no coordinate overflows
     static constexpr float middle = (sift_cells + 1) * 0.5f;
 
-    /// The first and last pixel from centre + low to centre + high along one axis, of those with a gradient;
-    /// none where these are not numbers.
-    [[nodiscard]] static int first_at(float centre, float low, int side) {
-        return int(std::min(float(side), std::max(1.0f, std::ceil(centre + low))));
+    /// The first and last pixel in reach along one axis, of those with a gradient.
+    [[nodiscard]] int first_at(float centre) const {
+        return int(std::clamp(std::ceil(centre - reach_), 1.0f, 1e6f));
     }
-    [[nodiscard]] static int last_at(float centre, float high, int side) {
-        return int(std::max(0.0f, std::min(std::floor(centre + high), float(side - 2))));
+    [[nodiscard]] int last_at(float centre, int side) const {
+        return int(std::clamp(std::floor(centre + reach_), 0.0f, float(side - 2)));
     }
 
     /// Where on a row a coordinate start + slope · dx of the window lies within it.
@@ -82,8 +84,8 @@ private:
         float low = -reach_, high = reach_;
         narrow(sine_ * dy + middle, cosine_, low, high);
         narrow(cosine_ * dy + middle, -sine_, low, high);
-        const int last = last_at(x_, high, image_.width());
-        for (int x = first_at(x_, low, image_.width()); x <= last;) {
+        const int last = std::min(last_at(x_, image_.width()), int(std::floor(x_ + high)));
+        for (int x = std::max(first_at(x_), int(std::ceil(x_ + low))); x <= last;) {
             const std::size_t count =
                 std::min(std::size_t(last - x + 1), GradientBatch::capacity - batch_.count);
             batch_.add_row(image_, x, row, count, x_, y_);
