@@ -20,19 +20,17 @@
 
 namespace {
 
-using Model = ism::Model<ism::HessianLaplace, ism::RootSift>;
+using Model = ism::TypedModel<ism::HessianLaplace, ism::RootSift>;
 
 Model trained_on(const ism::Dataset& data) {
-    return ism::train<ism::HessianLaplace, ism::RootSift>(
-        data.class_names, data.images.size(),
-        [&](std::size_t i) { return ism::read_training_image(data.images[i]); });
+    return ism::train<ism::HessianLaplace, ism::RootSift>(data.class_names, ism::training_set(data));
 }
 
-template <ism::AnyVoteSpace Space, ism::MatchRule Rule = ism::IouRule>
+template <ism::VoteSpaceType Space, ism::MatchRule Rule = ism::IouRule>
 ism::Evaluation evaluated(const Model& model, const ism::Dataset& data, const Rule& rule = {}) {
     std::vector<ism::Detections> found(data.images.size());
     ism::parallel_for(data.images.size(), 0, [&](std::size_t i) {
-        found[i] = ism::detect<Space>(model, ism::read_frame(data.images[i]), {.threads = 1});
+        found[i] = ism::detect<Space>(model, ism::read_frame(data.images[i]), {}, 1);
     });
     return ism::evaluate(data, found, rule);
 }

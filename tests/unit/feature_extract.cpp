@@ -42,8 +42,8 @@ const ism::Extractor<ism::DifferenceOfGaussians, ism::RootSift> dog;
 
 }  // namespace
 
-template <ism::Descriptor D>
-void check_same(const ism::FeatureSet<D>& a, const ism::FeatureSet<D>& b) {
+template <ism::DescriptorScalar T>
+void check_same(const ism::FeatureSet<T>& a, const ism::FeatureSet<T>& b) {
     REQUIRE(a.features.size() == b.features.size());
     bool same = true;
     for (std::size_t i = 0; i < a.features.size(); ++i) {

@@ -107,7 +107,7 @@ void each_extract_parameter(Options& options, Visit&& visit) {
     const std::string part = "extraction";
     const auto extraction = parameters_from_json(member(json, "extraction", place), place + ", extraction");
     SetParameters set{extraction, part};
-    each_extract_parameter(settings.options, set);
+    at_place(place, [&] { each_extract_parameter(settings.options, set); });
     expect<FileError>(set.count == extraction.size(), lazy_text(place, ", extraction: number of parameters"),
                       set.count, extraction.size());
     at_place(place + ", extraction", [&] { check(settings.options); });
