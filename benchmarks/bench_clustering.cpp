@@ -33,14 +33,14 @@ TEST_CASE("clustering by size", "[!benchmark]") {
         const std::vector<float> all = synthetic_points(count + 500, dimension);
         const auto values = std::span(all).first(count * dimension);
         const ism::ClusterMoments points{dimension, values, {}, {}};
-        const ism::MergeTrace trace = ism::trace_average_link(points, {.threads = 1});
+        const ism::MergeTrace trace = ism::trace_average_link(points, {}, 1);
         const double cut = trace.merges[trace.merges.size() * 3 / 4].sq_distance;
         const std::string size = " of " + std::to_string(count) + " points";
         BENCHMARK("full dendrogram" + size) {
-            return ism::trace_average_link(points, {.threads = 1}).merges.size();
+            return ism::trace_average_link(points, {}, 1).merges.size();
         };
         BENCHMARK("three quarters of the merges" + size) {
-            return ism::trace_average_link(points, {.max_sq_distance = cut, .threads = 1}).merges.size();
+            return ism::trace_average_link(points, {.max_sq_distance = cut}, 1).merges.size();
         };
         BENCHMARK("cutting a trace" + size) {
             return ism::cut(trace, cut).count;

@@ -32,7 +32,7 @@ void measure(std::size_t count) {
         return memory.grid.size();
     };
     BENCHMARK("starts, " + size) {
-        return memory.bins.find(all, bandwidth, options.max_starts, options.min_start).size();
+        return memory.bins.find(all, bandwidth, options.max_starts, options.min_relative_weight).size();
     };
     BENCHMARK("one step, " + size) {
         ism::Mode<D> mode = modes.front();

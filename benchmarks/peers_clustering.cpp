@@ -37,7 +37,7 @@ struct Rows {
     [[nodiscard]] ism::MergeTrace trace(double max_sq_distance, unsigned threads) const {
         return ism::trace_average_link(
             {.dimension = Descriptor::dimension, .means = values, .mean_sq_lengths = {}, .sizes = {}},
-            {.max_sq_distance = max_sq_distance, .threads = threads});
+            {.max_sq_distance = max_sq_distance}, threads);
     }
 };
 

@@ -85,7 +85,7 @@ template <std::size_t D>
     const auto bandwidth = fixed_bandwidth<D>();
     const ism::MeanShiftOptions options{.max_iterations = 500};  // to rest: else both stop on their way
     ism::StartBins<D> bins;
-    const auto starts = bins.find(all, bandwidth, options.max_starts, options.min_start);
+    const auto starts = bins.find(all, bandwidth, options.max_starts, options.min_relative_weight);
     std::vector<ism::Mode<D>> ours, peer;
     const auto times = bench::interleaved_ms(
         {[&] { ours = ism::find_modes<K>(all, bandwidth, options); },
@@ -94,7 +94,7 @@ template <std::size_t D>
          }},
         rounds);
     auto exhaustive = options;
-    exhaustive.capture = 0;
+    exhaustive.merge_radius = 0;
     const Agreement<D> agreement(ours, peer, bandwidth.at_scale_1, 0.05),
         exact(ism::find_modes<K>(all, bandwidth, exhaustive), peer, bandwidth.at_scale_1, 0.05);
     return {.name = name<D>(votes.size()),
@@ -103,7 +103,7 @@ template <std::size_t D>
             .peer_name = "nanoflann + loop",
             .unit = "ms",
             .correct = agreement.all() && exact.all(),
-            .remark = std::to_string(starts.size()) + " starts; " + agreement.text() + "; without capture " +
+            .remark = std::to_string(starts.size()) + " starts; " + agreement.text() + "; without merging " +
                       exact.text()};
 }
 #endif

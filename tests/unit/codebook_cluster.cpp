@@ -101,8 +101,7 @@ Naive merge_closest(const Points& points) {
 }
 
 ism::MergeTrace trace(const Points& points, double max_sq_distance = infinity, unsigned threads = 1) {
-    return ism::trace_average_link(points.moments(),
-                                   {.max_sq_distance = max_sq_distance, .threads = threads});
+    return ism::trace_average_link(points.moments(), {.max_sq_distance = max_sq_distance}, threads);
 }
 
 /// Whether every merge of a full trace is of clusters no further apart than any others then are, at the
@@ -390,7 +389,6 @@ TEST_CASE("a dendrogram is the same bits for every instruction set, near ties an
             const double height =
                 trace(points).merges[std::size_t(part * double(points.size() - 2))].sq_distance;
             const ism::AverageLinkOptions options{.max_sq_distance = part < 1 ? height : infinity,
-                                                  .threads = 1,
                                                   .isa = ism::InstructionSet::any};
             const ism::MergeTrace plain = ism::trace_average_link(points.moments(), options);
             CAPTURE(points.size(), points.dimension, part);
@@ -398,8 +396,8 @@ TEST_CASE("a dendrogram is the same bits for every instruction set, near ties an
             for (const ism::InstructionSet isa : instruction_sets())
                 for (const unsigned threads : {1u, 2u}) {
                     ism::AverageLinkOptions other = options;
-                    other.isa = isa, other.threads = threads;
-                    CHECK((ism::trace_average_link(points.moments(), other).merges == plain.merges));
+                    other.isa = isa;
+                    CHECK((ism::trace_average_link(points.moments(), other, threads).merges == plain.merges));
                 }
         }
 }

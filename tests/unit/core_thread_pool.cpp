@@ -80,7 +80,8 @@ TEST_CASE("a sweep makes every row of every stage once, after the rows it needs"
                 for (auto& stage : made) stage = std::vector<std::atomic<int>>(std::size_t(height));
                 std::atomic<int> early = 0;
                 ism::detail::sweep_rows(
-                    pool, height, std::span(reach), [&](std::size_t stage, int first, int end, unsigned) {
+                    pool, 0, height, height, std::span(reach),
+                    [&](std::size_t stage, int first, int end, unsigned) {
                         for (int y = first; y < end; ++y) {
                             for (int t = -reach[stage]; stage > 0 && t <= reach[stage]; ++t)
                                 if (y + t >= 0 && y + t < height)

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -96,8 +98,8 @@ std::vector<ism::Mode<D>> direct_modes(const std::vector<ism::Vote<D>>& votes,
                                        const ism::MeanShiftOptions& options) {
     ism::StartBins<D> bins;
     std::vector<ism::Mode<D>> modes, apart;
-    for (const auto& start :
-         bins.find(std::span<const ism::Vote<D>>(votes), bandwidth, options.max_starts, options.min_start))
+    for (const auto& start : bins.find(std::span<const ism::Vote<D>>(votes), bandwidth, options.max_starts,
+                                       options.min_relative_weight))
         modes.push_back(direct_mode<K>(votes, bandwidth, start, options));
     std::stable_sort(modes.begin(), modes.end(),
                      [](const auto& a, const auto& b) { return a.score > b.score; });
@@ -115,8 +117,11 @@ void check_against_direct(std::size_t count) {
     const auto votes = random_votes<D>(count, random);
     const auto bandwidth = mixed_bandwidth<D>(20);
     const std::span<const ism::Vote<D>> all(votes);
-    const ism::MeanShiftOptions every{
-        .max_starts = 60, .min_start = 0, .max_iterations = 500, .tolerance = 1e-7, .capture = 0};
+    const ism::MeanShiftOptions every{.max_starts = 60,
+                                      .min_relative_weight = 0,
+                                      .max_iterations = 500,
+                                      .tolerance = 1e-7,
+                                      .merge_radius = 0};
     const auto direct = direct_modes<K>(votes, bandwidth, every);
     const auto modes = ism::find_modes<K>(all, bandwidth, every);
     REQUIRE(modes.size() == direct.size());
@@ -125,10 +130,10 @@ void check_against_direct(std::size_t count) {
         CHECK(modes[m].scale == Approx(direct[m].scale).epsilon(1e-4));
         CHECK(modes[m].score == Approx(direct[m].score).epsilon(1e-4));
     }
-    // what capture leaves out is no mode of its own
-    auto captured = every;
-    captured.capture = ism::MeanShiftOptions{}.capture;
-    const auto fewer = ism::find_modes<K>(all, bandwidth, captured);
+    // what the merge radius leaves out is no mode of its own
+    auto merging = every;
+    merging.merge_radius = ism::MeanShiftOptions{}.merge_radius;
+    const auto fewer = ism::find_modes<K>(all, bandwidth, merging);
     for (const auto& mode : direct)
         if (mode.score >= 0.2 * direct.front().score)
             CHECK(std::any_of(fewer.begin(), fewer.end(), [&](const auto& other) {
@@ -137,8 +142,8 @@ void check_against_direct(std::size_t count) {
             }));
 }
 
-template <std::size_t D>
-bool same_bits(const std::vector<ism::Mode<D>>& a, const std::vector<ism::Mode<D>>& b) {
+template <class A, class B>
+bool same_bits(const std::vector<A>& a, const std::vector<B>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& m, const auto& n) {
         return m.at == n.at && m.scale == n.scale && m.score == n.score && m.label == n.label;
     });
@@ -338,10 +343,10 @@ TEST_CASE("votes and options that mean shift cannot take are errors") {
     CHECK_THROWS_AS(modes_of(bad), ism::Error);
     bad = good, bad.weight = -1;
     CHECK_THROWS_AS(modes_of(bad), ism::Error);
-    CHECK_THROWS_AS(modes_of(good, {.min_start = -1}), ism::Error);
+    CHECK_THROWS_AS(modes_of(good, {.min_relative_weight = -1}), ism::Error);
     CHECK_THROWS_AS(modes_of(good, {.max_iterations = -1}), ism::Error);
     CHECK_THROWS_AS(modes_of(good, {.tolerance = nan}), ism::Error);
-    CHECK_THROWS_AS(modes_of(good, {.capture = 2}), ism::Error);
+    CHECK_THROWS_AS(modes_of(good, {.merge_radius = 2}), ism::Error);
     CHECK(modes_of(good, {.max_starts = 0}) == 0);
     CHECK(modes_of(good, {.max_iterations = 0}) == 1);
 }
@@ -383,11 +388,68 @@ TEST_CASE("the strongest modes of all labels are those of searching every label,
             for (const auto& mode : all)
                 if (expected.size() < most && mode.score >= keep * all.front().score)
                     expected.push_back(mode);
-            for (const unsigned threads : {1u, 2u, 3u})
-                CHECK(same_bits(expected, ism::strongest_modes<ism::EpanechnikovKernel>(
-                                              parts, bandwidth, {}, most, keep, threads)));
+            for (const unsigned threads : {1u, 2u, 3u}) {
+                ism::ThreadPool pool(threads);
+                CHECK(same_bits(expected, ism::strongest_modes<ism::EpanechnikovKernel>(parts, bandwidth, {},
+                                                                                        most, keep, pool)));
+            }
         }
+    for (const double bad : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()})
+        CHECK_THROWS_AS(ism::strongest_modes<ism::FlatKernel>(parts, bandwidth, {}, 40, bad, 1), ism::Error);
     CHECK(ism::strongest_modes<ism::FlatKernel, 3>({}, bandwidth, {}, 40, 0.05, 2).empty());
+}
+
+TEMPLATE_TEST_CASE("the support of a mode is what a scan of all votes of its label finds", "",
+                   ism::FlatKernel, ism::EpanechnikovKernel, ism::GaussianKernel) {
+    ism::Random random(12);
+    std::vector<ism::Vote<3>> votes;
+    for (const auto& [label, count] : {std::pair{2u, 3000u}, {5u, 40u}, {9u, 700u}}) {
+        const auto part = random_votes<3>(count, random, label);
+        votes.insert(votes.end(), part.begin(), part.end());
+    }
+    for (int i = -2; i <= 2; ++i)  // at the edge of a window, a last digit beside, for a label of its own
+        votes.push_back({.at = {std::nextafter(15.0f, float(i) * 1e9f), 0, 0}, .weight = 1, .label = 11});
+    votes.push_back({.at = {0, 0, 0}, .weight = 1e6f, .label = 11});
+    const ism::Bandwidth<3> bandwidth{{15, 15, 15}, {grows, grows, stays}};
+    const auto labels = ism::split_by_label(std::span<const ism::Vote<3>>(votes));
+    ism::ThreadPool pool(2);
+    const auto modes = ism::strongest_modes<TestType>(std::span<const std::span<const ism::Vote<3>>>(labels),
+                                                      bandwidth, {}, 200, 0, pool);
+    REQUIRE(modes.size() > 8);
+    for (const auto& mode : modes) {
+        const auto own = *std::find_if(labels.begin(), labels.end(),
+                                       [&](const auto& part) { return part.front().label == mode.label; });
+        std::vector<ism::WindowVote> scanned;
+        for (std::uint32_t i = 0; i < own.size(); ++i) {
+            const double sq_u = ism::sq_windows(own[i].at, mode.at, bandwidth.at(mode.scale));
+            if (const double kernel = TestType::profile(float(sq_u)); kernel > 0)
+                scanned.push_back({i, kernel});
+        }
+        CHECK(mode.support == scanned);
+        double score = 0;
+        for (const auto& [i, kernel] : mode.support) score += double(own[i].weight) * kernel;
+        CHECK(score == Approx(mode.score).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("an option of mean shift that is out of range is named with its range and value") {
+    const auto message = [](const ism::MeanShiftOptions& options) -> std::string {
+        try {
+            check(options);
+        } catch (const ism::Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK(message({}) == "");
+    CHECK(message({.min_relative_weight = 1.5}) ==
+          "MeanShiftOptions::min_relative_weight: expected 0 to 1, got 1.5");
+    CHECK(message({.min_relative_weight = nan}) ==
+          "MeanShiftOptions::min_relative_weight: expected 0 to 1, got nan");
+    CHECK(message({.max_iterations = -3}) == "MeanShiftOptions::max_iterations: expected 0 or more, got -3");
+    CHECK(message({.tolerance = nan}) == "MeanShiftOptions::tolerance: expected 0 or more, finite, got nan");
+    CHECK(message({.merge_radius = -1}) == "MeanShiftOptions::merge_radius: expected 0 to 1, got -1");
 }
 
 TEST_CASE("kernels are 1 at their centre, fall, and end at their reach") {

@@ -10,6 +10,7 @@
 #include "ism/cluster/reciprocal_merging.hpp"
 #include "ism/core/error.hpp"
 #include "ism/core/processor.hpp"
+#include "ism/core/thread_pool.hpp"
 
 namespace ism {
 
@@ -18,7 +19,6 @@ struct AverageLinkOptions {
     double max_sq_distance = std::numeric_limits<double>::infinity();  ///< merges beyond are left out
     std::size_t settled = 0;  ///< so many first clusters are known to lie further apart than that from each
                               ///< other, as those that an earlier run left do: they are not compared
-    unsigned threads = 0;     ///< 0 = all the machine has
     InstructionSet isa = best_instruction_set();  ///< for tests: the merges are the same bits for each
 };
 
@@ -31,7 +31,7 @@ struct AverageLinkOptions {
 /// @throws Error as check_moments() does, for a largest distance that is negative or NaN, and for more
 /// settled clusters than there are, or an instruction set that the processor lacks.
 [[nodiscard]] inline MergeTrace trace_average_link(const ClusterMoments& start,
-                                                   const AverageLinkOptions& options = {}) {
+                                                   const AverageLinkOptions& options, ThreadPool& pool) {
     check_moments(start);
     expect(options.max_sq_distance >= 0, "clustering: largest squared distance", "0 or more",
            options.max_sq_distance);
@@ -39,9 +39,16 @@ struct AverageLinkOptions {
            lazy_text("at most ", start.size()), options.settled);
     expect(has_instruction_set(options.isa), "clustering: instruction set", "one that the processor has",
            int(options.isa));
-    return detail::ReciprocalMerging(start, options.max_sq_distance, options.settled, options.threads,
-                                     options.isa)
+    return detail::ReciprocalMerging(start, options.max_sq_distance, options.settled, pool, options.isa)
         .run();
+}
+
+/// @brief The same on `threads` threads of its own; 0 = all hardware threads.
+[[nodiscard]] inline MergeTrace trace_average_link(const ClusterMoments& start,
+                                                   const AverageLinkOptions& options = {},
+                                                   unsigned threads = 0) {
+    ThreadPool pool(threads);
+    return trace_average_link(start, options, pool);
 }
 
 }  // namespace ism

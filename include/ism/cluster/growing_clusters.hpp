@@ -12,6 +12,7 @@
 #include "ism/cluster/cluster_moments.hpp"
 #include "ism/cluster/merge_trace.hpp"
 #include "ism/core/error.hpp"
+#include "ism/core/thread_pool.hpp"
 
 namespace ism {
 
@@ -72,7 +73,7 @@ struct GrownClusters {
 /// @param values  points one after another, `present.dimension` numbers each
 /// @throws Error as trace_average_link() does.
 [[nodiscard]] inline GrownClusters add_points(const Clusters& present, std::span<const float> values,
-                                              double max_sq_distance, unsigned threads = 0) {
+                                              double max_sq_distance, ThreadPool& pool) {
     expect(present.dimension > 0 && values.size() % present.dimension == 0, "clustering: number of values",
            lazy_text("a multiple of the dimension ", present.dimension), values.size());
     Clusters all = present;
@@ -85,11 +86,17 @@ struct GrownClusters {
             square += double(value) * value;
         all.mean_sq_lengths.push_back(float(square));
     }
-    const AverageLinkOptions options{
-        .max_sq_distance = max_sq_distance, .settled = present.size(), .threads = threads};
-    Clustering clustering = cut(trace_average_link(all.moments(), options), max_sq_distance);
+    const AverageLinkOptions options{.max_sq_distance = max_sq_distance, .settled = present.size()};
+    Clustering clustering = cut(trace_average_link(all.moments(), options, pool), max_sq_distance);
     Clusters clusters = join_clusters(all.moments(), clustering);
     return {std::move(clusters), std::move(clustering)};
+}
+
+/// @brief The same on `threads` threads of its own; 0 = all hardware threads.
+[[nodiscard]] inline GrownClusters add_points(const Clusters& present, std::span<const float> values,
+                                              double max_sq_distance, unsigned threads = 0) {
+    ThreadPool pool(threads);
+    return add_points(present, values, max_sq_distance, pool);
 }
 
 }  // namespace ism

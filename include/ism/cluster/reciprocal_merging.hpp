@@ -29,8 +29,8 @@ class ReciprocalMerging {
 public:
     /// The first `settled` clusters are known to lie further apart than `max_sq_distance`.
     ReciprocalMerging(const ClusterMoments& start, double max_sq_distance, std::size_t settled,
-                      unsigned threads, InstructionSet isa = best_instruction_set())
-        : pool_(threads),
+                      ThreadPool& pool, InstructionSet isa = best_instruction_set())
+        : pool_(pool),
           settled_(settled),
           live_(start, pool_, isa),
           lists_(start.size(), NearLists::limit_of(max_sq_distance)),
@@ -137,7 +137,7 @@ private:
         if (!asking.empty()) NearSearch(live_, lists_, asking, others).run(pool_);
     }
 
-    ThreadPool pool_;
+    ThreadPool& pool_;
     std::size_t settled_;
     LiveClusters live_;
     NearLists lists_;

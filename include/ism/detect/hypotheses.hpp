@@ -97,13 +97,11 @@ template <Kernel K, std::size_t Dimension>
         const auto of_label = std::lower_bound(
             labels.begin(), labels.end(), modes[i].label,
             [](const auto& part, std::uint32_t label) { return part.front().label < label; });
-        const auto extent = bandwidth.at(modes[i].scale);
         std::vector<Support> window;
-        for (const Vote<Dimension>& vote : *of_label) {
-            const double kernel = K::profile(static_cast<float>(sq_windows(vote.at, modes[i].at, extent)));
-            if (kernel > 0)
-                window.push_back(
-                    {vote.feature, vote.word, vote.occurrence, static_cast<float>(vote.weight * kernel)});
+        for (const auto& [index, kernel] : modes[i].support) {
+            const Vote<Dimension>& vote = (*of_label)[index];
+            window.push_back(
+                {vote.feature, vote.word, vote.occurrence, static_cast<float>(vote.weight * kernel)});
         }
         hypotheses[i] = describe_hypothesis(modes[i].score, std::move(window), scene);
     });

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <span>
 
 #include "ism/core/error.hpp"
+#include "ism/vote/vote.hpp"
 #include "ism/vote/vote_space.hpp"
 
 namespace ism {
@@ -38,12 +41,28 @@ template <VoteSpaceType Space>
     return bandwidth;
 }
 
-/// @brief Does nothing where `bandwidth` can be used.
+/// @brief Validates `bandwidth`.
 /// @throws Error where one is not a positive number.
 template <std::size_t Dimension>
 void check(const Bandwidth<Dimension>& bandwidth) {
     for (const double value : bandwidth.at_scale_1)
         expect(std::isfinite(value) && value > 0, "mean shift bandwidth", "a positive number", value);
+}
+
+/// @brief Validates the votes and the bandwidth of a mean shift.
+/// @throws Error as the checks of each do.
+template <std::size_t Dimension>
+void check(std::span<const Vote<Dimension>> votes, const Bandwidth<Dimension>& bandwidth) {
+    check(bandwidth);
+    for (const auto& vote : votes) check(vote);
+}
+
+/// @brief Whether check() takes the votes and the bandwidth.
+template <std::size_t Dimension>
+[[nodiscard]] bool are_usable(std::span<const Vote<Dimension>> votes, const Bandwidth<Dimension>& bandwidth) {
+    const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+    return std::all_of(bandwidth.at_scale_1.begin(), bandwidth.at_scale_1.end(), positive) &&
+           std::all_of(votes.begin(), votes.end(), is_usable<Dimension>);
 }
 
 /// @brief Squared distance in windows: Σ ((a − b) / window)².

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,21 +21,24 @@ namespace ism {
 
 /// @brief How modes are searched.
 struct MeanShiftOptions {
-    std::size_t max_starts = 30;  ///< heaviest bins of a label from which a search starts
-    double min_start = 0.05;      ///< a start's bin weighs at least this part of the label's heaviest
+    std::size_t max_starts = 30;        ///< heaviest bins of a label from which a search starts
+    double min_relative_weight = 0.05;  ///< of a start's bin, to that of the label's heaviest
     int max_iterations = 50;
-    double tolerance = 1e-3;  ///< a search ends where its step is shorter than this part of the window
-    double capture = 0.03;  ///< and, without a mode of its own, this part of the window from one found before
+    double tolerance = 1e-3;     ///< a search ends where its step is shorter than this part of the window
+    double merge_radius = 0.03;  ///< and, without a mode of its own, this part of the window from a known one
 };
 
-/// @brief Does nothing where `options` can be used.
-/// @throws Error for one out of range.
+/// @brief Validates `options`.
+/// @throws Error for one out of range or NaN.
 inline void check(const MeanShiftOptions& options) {
-    expect(options.min_start >= 0 && options.min_start <= 1,
-           "mean shift: part of the heaviest bin to start at", "0 ... 1", options.min_start);
-    expect(options.max_iterations >= 0, "mean shift: iterations", "0 or more", options.max_iterations);
-    expect(options.tolerance >= 0, "mean shift: tolerance", "0 or more", options.tolerance);
-    expect(options.capture >= 0 && options.capture <= 1, "mean shift: capture", "0 ... 1", options.capture);
+    expect(options.min_relative_weight >= 0 && options.min_relative_weight <= 1,
+           "MeanShiftOptions::min_relative_weight", "0 to 1", options.min_relative_weight);
+    expect(options.max_iterations >= 0, "MeanShiftOptions::max_iterations", "0 or more",
+           options.max_iterations);
+    expect(options.tolerance >= 0 && std::isfinite(options.tolerance), "MeanShiftOptions::tolerance",
+           "0 or more, finite", options.tolerance);
+    expect(options.merge_radius >= 0 && options.merge_radius <= 1, "MeanShiftOptions::merge_radius", "0 to 1",
+           options.merge_radius);
 }
 
 /// @brief Goes to the mean of the votes in the window, and takes the window's scale from them.
@@ -50,17 +54,6 @@ double shift_once(const VoteGrid<Dimension>& grid, Mode<Dimension>& mode) {
     return sq_step;
 }
 
-/// @brief Follows the mean of the votes in the window from `start` until it rests. The window grows with the
-/// mean scale of the votes in it.
-template <Kernel K, std::size_t Dimension>
-[[nodiscard]] Mode<Dimension> shift_to_mode(const VoteGrid<Dimension>& grid, Mode<Dimension> start,
-                                            const MeanShiftOptions& options = {}) {
-    for (int i = 0; i < options.max_iterations; ++i)
-        if (shift_once<K>(grid, start) < options.tolerance * options.tolerance) break;
-    start.score = window_score<K>(grid, start.at, grid.bandwidth().at(start.scale));
-    return start;
-}
-
 /// @brief The modes reached from `starts`, strongest first; of modes less than one window apart only the
 /// strongest stays. Fewer starts end at a mode of their own than there are: most come by one that is known.
 /// @throws Error for an option out of range.
@@ -73,17 +66,17 @@ template <Kernel K, std::size_t Dimension>
     const auto near = [&](const Mode<Dimension>& mode, const Mode<Dimension>& other, double part) {
         return sq_windows(mode.at, other.at, grid.bandwidth().at(other.scale)) < part * part;
     };
-    const auto captured = [&](const Mode<Dimension>& mode) {
+    const auto is_known = [&](const Mode<Dimension>& mode) {
         return std::any_of(modes.begin(), modes.end(), [&](const auto& other) {
-            return std::abs(mode.scale / other.scale - 1) < options.capture &&
-                   near(mode, other, options.capture);
+            return std::abs(mode.scale / other.scale - 1) < options.merge_radius &&
+                   near(mode, other, options.merge_radius);
         });
     };
     for (Mode<Dimension> mode : starts) {
-        bool known = captured(mode);
+        bool known = is_known(mode);
         for (int i = 0; i < options.max_iterations && !known; ++i) {
             if (shift_once<K>(grid, mode) < options.tolerance * options.tolerance) break;
-            known = captured(mode);
+            known = is_known(mode);
         }
         if (known) continue;
         mode.score = window_score<K>(grid, mode.at, grid.bandwidth().at(mode.scale));
@@ -104,6 +97,35 @@ struct MeanShiftMemory {
     StartBins<Dimension> bins;
 };
 
+/// @brief The votes in the window of a mode, by rising index: all with a kernel above 0.
+template <Kernel K, std::size_t Dimension>
+[[nodiscard]] std::vector<WindowVote> support_of(const VoteGrid<Dimension>& grid,
+                                                 const Mode<Dimension>& mode) {
+    std::vector<WindowVote> support;
+    const double reach = 1.000001 * K::reach;  // a kernel sees u² as a float, which may lie within
+    grid.each_within(mode.at, grid.bandwidth().at(mode.scale), reach, [&](std::uint32_t i, double sq_u) {
+        if (const double kernel = K::profile(float(sq_u)); kernel > 0) support.push_back({i, kernel});
+    });
+    std::sort(support.begin(), support.end(),
+              [](const WindowVote& a, const WindowVote& b) { return a.index < b.index; });
+    return support;
+}
+
+namespace detail {
+
+/// The modes of votes and options that were checked.
+template <Kernel K, std::size_t Dimension>
+[[nodiscard]] std::vector<Mode<Dimension>> find_modes_of(std::span<const Vote<Dimension>> votes,
+                                                         const Bandwidth<Dimension>& bandwidth,
+                                                         const MeanShiftOptions& options,
+                                                         MeanShiftMemory<Dimension>& memory) {
+    memory.grid.assign(votes, bandwidth);
+    const auto starts = memory.bins.find(votes, bandwidth, options.max_starts, options.min_relative_weight);
+    return find_modes<K>(memory.grid, starts, options);
+}
+
+}  // namespace detail
+
 /// @brief The modes of votes of one label, strongest first: mean shift from the heaviest bins.
 /// @throws Error for a bandwidth that is not a positive number, a vote that check() refuses, an option out of
 /// range.
@@ -112,9 +134,8 @@ template <Kernel K, std::size_t Dimension>
                                                       const Bandwidth<Dimension>& bandwidth,
                                                       const MeanShiftOptions& options,
                                                       MeanShiftMemory<Dimension>& memory) {
-    memory.grid.assign(votes, bandwidth);
-    return find_modes<K>(memory.grid,
-                         memory.bins.find(votes, bandwidth, options.max_starts, options.min_start), options);
+    check(votes, bandwidth);
+    return detail::find_modes_of<K>(votes, bandwidth, options, memory);
 }
 
 /// @brief The same in memory of its own.

@@ -25,11 +25,10 @@ class StartBins {
 public:
     /// @brief The means of the heaviest bins, heaviest first; their score is the bin's weight.
     /// @param votes  of one label, such as check() takes
-    /// @param most   so many at most
-    /// @param least  lighter bins than this part of the heaviest are left out
+    /// @param min_relative_weight  lighter bins than this part of the heaviest are left out
     [[nodiscard]] std::span<const Mode<Dimension>> find(std::span<const Vote<Dimension>> votes,
                                                         const Bandwidth<Dimension>& bandwidth,
-                                                        std::size_t most, double least) {
+                                                        std::size_t max_count, double min_relative_weight) {
         bins_.clear(), keys_.clear();
         if (votes.empty()) return {};
         make_windows(votes, bandwidth);
@@ -43,7 +42,7 @@ public:
             bin.scale += weight * vote.scale;
             bin.score += weight;
         }
-        return heaviest(most, least);
+        return heaviest(max_count, min_relative_weight);
     }
 
 private:
@@ -90,10 +89,11 @@ private:
         return bin_at_[slot];
     }
 
-    [[nodiscard]] std::span<const Mode<Dimension>> heaviest(std::size_t most, double least) {
+    [[nodiscard]] std::span<const Mode<Dimension>> heaviest(std::size_t max_count,
+                                                            double min_relative_weight) {
         order_.resize(bins_.size());
         for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
-        const std::size_t count = std::min(most, order_.size());
+        const std::size_t count = std::min(max_count, order_.size());
         std::partial_sort(order_.begin(), order_.begin() + std::ptrdiff_t(count), order_.end(),
                           [&](std::uint32_t a, std::uint32_t b) {
                               return bins_[a].score > bins_[b].score ||
@@ -102,7 +102,7 @@ private:
         starts_.clear();
         for (std::size_t i = 0; i < count; ++i) {
             Mode<Dimension> bin = bins_[order_[i]];
-            if (!(bin.score > 0) || bin.score < least * bins_[order_[0]].score) break;
+            if (!(bin.score > 0) || bin.score < min_relative_weight * bins_[order_[0]].score) break;
             for (double& value : bin.at) value /= bin.score;
             bin.scale /= bin.score;
             starts_.push_back(bin);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
+#include "ism/core/error.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/vote/mean_shift.hpp"
 
@@ -28,61 +30,89 @@ template <std::size_t Dimension>
 
 namespace detail {
 
-/// Strongest first, then by label; those behind the `most`-th or below `keep` times the first dropped.
+/// Strongest first, then by label; those behind the `max_count`-th or below `min_relative_score` times the
+/// first dropped.
 template <std::size_t Dimension>
-void keep_strongest(std::vector<Mode<Dimension>>& modes, std::size_t most, double keep) {
+void keep_strongest(std::vector<SupportedMode<Dimension>>& modes, std::size_t max_count,
+                    double min_relative_score) {
     std::stable_sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) {
         return a.score > b.score || (a.score == b.score && a.label < b.label);
     });
     std::size_t count = 0;
-    while (count < std::min(most, modes.size()) && modes[count].score >= keep * modes.front().score) ++count;
+    while (count < std::min(max_count, modes.size()) &&
+           modes[count].score >= min_relative_score * modes.front().score)
+        ++count;
     modes.resize(count);
+}
+
+/// At most what all votes of a label weigh together, a bit more than any score of theirs, which is a sum in
+/// float.
+template <std::size_t Dimension>
+[[nodiscard]] double score_bound(std::span<const Vote<Dimension>> votes) {
+    double weight = 0;
+    for (const auto& vote : votes) weight += vote.weight;
+    return weight * (1 + 1e-5 + 1e-8 * double(votes.size()));
 }
 
 }  // namespace detail
 
-/// @brief The strongest modes of all labels: at most so many, and none weaker than `keep` times the
-/// strongest. Labels are searched by falling weight of all their votes, which no mode of theirs can exceed;
-/// where that is too little for a place among the strongest, the search is over.
-/// @param labels   the votes of each label, as split_by_label() gives them
-/// @param pool    the result is the same for any number of threads
-/// @throws Error as find_modes() does
+/// @brief The strongest modes of all labels with their votes: at most `max_count`, and none weaker than
+/// `min_relative_score` times the strongest. Labels are searched by falling weight of all their votes, which
+/// no mode of theirs can exceed; where that is too little for a place among the strongest, the search is
+/// over.
+/// @param labels  the votes of each label, as split_by_label() gives them; the support of a mode has indices
+/// into those of its label
+/// @return the same for any number of threads
+/// @throws Error as find_modes() does, and for a least relative score outside 0 to 1
 template <Kernel K, std::size_t Dimension>
-[[nodiscard]] std::vector<Mode<Dimension>> strongest_modes(
+[[nodiscard]] std::vector<SupportedMode<Dimension>> strongest_modes(
     std::span<const std::span<const Vote<Dimension>>> labels, const Bandwidth<Dimension>& bandwidth,
-    const MeanShiftOptions& options, std::size_t most, double keep, ThreadPool& pool) {
-    std::vector<double> weight(labels.size(), 0);
+    const MeanShiftOptions& options, std::size_t max_count, double min_relative_score, ThreadPool& pool) {
+    check(options);
+    expect(min_relative_score >= 0 && min_relative_score <= 1, "modes: least relative score", "0 to 1",
+           min_relative_score);
+    for (const auto& votes : labels) check(votes, bandwidth);
+    std::vector<double> bound(labels.size());
     std::vector<std::uint32_t> order(labels.size());
-    for (std::uint32_t l = 0; l < labels.size(); ++l) {
-        order[l] = l;
-        for (const auto& vote : labels[l]) {
-            check(vote);
-            weight[l] += vote.weight;
-        }
-        weight[l] *= 1 + 1e-5 + 1e-8 * double(labels[l].size());  // scores are sums in float
-    }
+    for (std::uint32_t l = 0; l < labels.size(); ++l) order[l] = l, bound[l] = detail::score_bound(labels[l]);
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return weight[a] > weight[b]; });
+                     [&](std::uint32_t a, std::uint32_t b) { return bound[a] > bound[b]; });
 
     std::vector<MeanShiftMemory<Dimension>> memory(pool.size());
-    std::vector<Mode<Dimension>> strongest;
+    std::vector<SupportedMode<Dimension>> strongest;
     std::size_t at_once = 16;  // not the number of threads, on which the result must not depend
-    for (std::size_t first = 0; first < labels.size() && most > 0; first += at_once, at_once *= 2) {
-        const double least = strongest.size() == most ? strongest.back().score
-                             : strongest.empty()      ? 0
-                                                      : keep * strongest.front().score;
+    for (std::size_t first = 0; first < labels.size() && max_count > 0; first += at_once, at_once *= 2) {
+        const double least = strongest.size() == max_count ? strongest.back().score
+                             : strongest.empty()           ? 0
+                                                           : min_relative_score * strongest.front().score;
         std::size_t count = 0;
-        while (count < std::min(at_once, labels.size() - first) && weight[order[first + count]] >= least)
+        while (count < std::min(at_once, labels.size() - first) && bound[order[first + count]] >= least)
             ++count;
-        std::vector<std::vector<Mode<Dimension>>> found(count);
+        std::vector<std::vector<SupportedMode<Dimension>>> found(count);
         pool.for_each(count, [&](std::size_t i, unsigned worker) {
-            found[i] = find_modes<K>(labels[order[first + i]], bandwidth, options, memory[worker]);
+            MeanShiftMemory<Dimension>& own = memory[worker];
+            const auto modes = detail::find_modes_of<K>(labels[order[first + i]], bandwidth, options, own);
+            for (const Mode<Dimension>& mode : modes)
+                if (mode.score >= std::max(least, min_relative_score * modes.front().score))
+                    found[i].push_back({mode, support_of<K>(own.grid, mode)});
         });
-        for (const auto& modes : found) strongest.insert(strongest.end(), modes.begin(), modes.end());
-        detail::keep_strongest(strongest, most, keep);
+        for (auto& modes : found)
+            strongest.insert(strongest.end(), std::move_iterator(modes.begin()),
+                             std::move_iterator(modes.end()));
+        detail::keep_strongest(strongest, max_count, min_relative_score);
         if (count < std::min(at_once, labels.size() - first)) break;
     }
     return strongest;
+}
+
+/// @brief The same on `threads` threads of its own; 0 = all hardware threads.
+template <Kernel K, std::size_t Dimension>
+[[nodiscard]] std::vector<SupportedMode<Dimension>> strongest_modes(
+    std::span<const std::span<const Vote<Dimension>>> labels, const Bandwidth<Dimension>& bandwidth,
+    const MeanShiftOptions& options, std::size_t max_count, double min_relative_score, unsigned threads) {
+    ThreadPool pool(
+        unsigned(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(1, labels.size()))));
+    return strongest_modes<K>(labels, bandwidth, options, max_count, min_relative_score, pool);
 }
 
 }  // namespace ism

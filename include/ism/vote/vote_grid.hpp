@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "ism/core/aligned.hpp"
-#include "ism/core/error.hpp"
 #include "ism/vote/bandwidth.hpp"
 #include "ism/vote/cell_grid.hpp"
 #include "ism/vote/vote.hpp"
@@ -29,15 +29,15 @@ public:
     static constexpr std::size_t padding = 16;
 
     VoteGrid() = default;
+    /// @throws Error for a bandwidth that is not a positive number, or a vote that check() refuses.
     VoteGrid(std::span<const Vote<Dimension>> votes, const Bandwidth<Dimension>& bandwidth) {
+        check(votes, bandwidth);
         assign(votes, bandwidth);
     }
 
-    /// @brief Takes other votes instead, in the memory at hand.
-    /// @throws Error for a bandwidth that is not a positive number, or a vote that check() refuses.
+    /// @brief Takes other votes instead, in the memory at hand: such as check() takes, with such a bandwidth.
     void assign(std::span<const Vote<Dimension>> votes, const Bandwidth<Dimension>& bandwidth) {
-        check(bandwidth);
-        for (const auto& vote : votes) check(vote);
+        assert(are_usable(votes, bandwidth));
         bandwidth_ = bandwidth;
         size_ = votes.size();
         stride_ = size_ + padding;
