@@ -1,8 +1,8 @@
-// expect: verifier.verify(hypotheses)
+// expect: verifier.verify(hypotheses, scene)
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include "ism/detect/detect.hpp"
 
 struct Undecided {};
 
-const auto found = ism::detect_from_matches<ism::Jism, ism::FlatKernel, Undecided>({}, {}, {}, {});
+ism::Recognition<ism::Jism, ism::FlatKernel, ism::NoRescorer, ism::PatchSegmenter, Undecided> recognition;

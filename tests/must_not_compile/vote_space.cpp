@@ -1,6 +1,6 @@
-// expect: AnyVoteSpace
+// expect: VoteSpaceType
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include "ism/detect/detect.hpp"
 
-ism::DetectOptions<ism::X> options;
+ism::Recognition<ism::X> recognition;
