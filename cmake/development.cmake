@@ -19,8 +19,8 @@ endif()
 if(ISM_NATIVE)
     target_compile_options(ism_dev_options INTERFACE -march=native)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-        # gcc 12 warns of its own AVX-512 header (bug 105593); builds without -march=native keep the warning.
-        target_compile_options(ism_dev_options INTERFACE -Wno-maybe-uninitialized)
+        # gcc 12 warns of its own AVX-512 header (bug 105593); builds without -march=native keep the warnings.
+        target_compile_options(ism_dev_options INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized)
     endif()
 endif()
 target_include_directories(ism_dev_options INTERFACE "${PROJECT_SOURCE_DIR}/examples")
