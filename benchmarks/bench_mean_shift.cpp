@@ -28,19 +28,19 @@ void measure(std::size_t count) {
     const std::string size = std::to_string(D) + "-D, " + std::to_string(count) + " votes";
 
     BENCHMARK("grid, " + size) {
-        memory.grid.assign(all, bandwidth);
-        return memory.grid.size();
+        memory.search.assign(all, bandwidth);
+        return memory.search.size();
     };
     BENCHMARK("starts, " + size) {
         return memory.bins.find(all, bandwidth, options.max_starts, options.min_relative_weight).size();
     };
     BENCHMARK("one step, " + size) {
         ism::Mode<D> mode = modes.front();
-        return ism::shift_once<ism::EpanechnikovKernel>(memory.grid, mode);
+        return ism::shift_once<ism::EpanechnikovKernel>(memory.search, mode);
     };
     BENCHMARK("one step, Gaussian, " + size) {
         ism::Mode<D> mode = modes.front();
-        return ism::shift_once<ism::GaussianKernel>(memory.grid, mode);
+        return ism::shift_once<ism::GaussianKernel>(memory.search, mode);
     };
     BENCHMARK("modes, " + size) {
         return ism::find_modes<ism::EpanechnikovKernel>(all, bandwidth, options, memory).size();

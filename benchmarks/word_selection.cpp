@@ -26,6 +26,7 @@
 #include "ism/show/color.hpp"
 #include "ism/show/svg.hpp"
 #include "ism/train/train.hpp"
+#include "ism/train/vote_agreement.hpp"
 
 namespace {
 
@@ -48,11 +49,11 @@ struct Figures {
 void measure(const fs::path& data, bool judge, const std::string& svg) {
     struct Choice {
         const char* name;
-        ism::WordMeasure measure;
+        ism::WordWorth worth;
     };
-    constexpr std::array choices = {Choice{"occurrences", ism::WordMeasure::occurrences},
-                                    Choice{"information gain", ism::WordMeasure::information_gain},
-                                    Choice{"vote agreement", ism::WordMeasure::vote_agreement}};
+    const std::array choices = {Choice{"occurrences", ism::word_occurrences},
+                                Choice{"information gain", ism::word_information_gain},
+                                Choice{"vote agreement", ism::vote_agreement}};
     const ism::Dataset train = ism::read_dataset(data / "train.json"),
                        test = ism::read_dataset(data / "test.json");
     const auto features = ism::extract_training_features(
@@ -72,7 +73,7 @@ void measure(const fs::path& data, bool judge, const std::string& svg) {
     for (std::size_t count = all; count >= 100; count = count * 10 / 18) {
         std::vector<std::string> row = {std::to_string(count)};
         for (std::size_t m = 0; m < choices.size(); ++m) {
-            options.selection = {.max_words = count, .measure = choices[m].measure};
+            options.selection = {.max_words = count, .worth = choices[m].worth};
             const Figures figures = figures_of(Model(ism::learn(features, options)), test);
             row.push_back(bench::number(100 * figures.accuracy, 1));
             row.push_back(bench::number(100 * figures.ap, 1));

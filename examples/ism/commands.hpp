@@ -35,8 +35,9 @@ struct TrainCommand {
     std::string detector{default_detector}, descriptor{default_descriptor};
     ism::TrainOptions options = {};
     bool skip_bad = false;
-    std::filesystem::path add_to = {};  ///< model that learns more; empty = a new one
-    bool growable = false;              ///< keep the training features, for add_to
+    std::filesystem::path add_to = {};     ///< model that learns more; empty = a new one
+    std::string best_words = "agreement";  ///< what TrainOptions::selection goes by
+    bool growable = false;                 ///< keep the training features, for add_to
 };
 
 /// How objects are searched for, whatever the vote space.

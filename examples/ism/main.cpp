@@ -65,17 +65,12 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
     app.add_option("--max-words", command.options.selection.max_words,
                    "keep so many of the best words; 0 = all")
         ->capture_default_str();
-    app.add_option_function<std::string>(
-           "--best-words",
-           [&command](const std::string& measure) {
-               command.options.selection.measure = measure == "occurrences" ? ism::WordMeasure::occurrences
-                                                   : measure == "gain" ? ism::WordMeasure::information_gain
-                                                                       : ism::WordMeasure::vote_agreement;
-           },
-           "what --max-words goes by: how often a word is seen, its information gain, or how well its votes "
-           "agree")
+    app.add_option(
+           "--best-words", command.best_words,
+           "what --max-words goes by: how often a word is seen, its information gain, or how well its "
+           "votes agree")
         ->check(CLI::IsMember({"occurrences", "gain", "agreement"}))
-        ->default_str("agreement");
+        ->capture_default_str();
     app.add_option("--max-features", command.options.features.max_features,
                    "features on all objects together; of more each object gives its strongest, at least 30")
         ->check(CLI::PositiveNumber)

@@ -13,6 +13,7 @@
 #include "ism/model_file/model_file.hpp"
 #include "ism/train/extract_training_features.hpp"
 #include "ism/train/learn.hpp"
+#include "ism/train/vote_agreement.hpp"
 
 namespace program {
 
@@ -37,6 +38,12 @@ Known lessons_of(const std::filesystem::path& path, ism::TrainOptions& options) 
     return {ism::load_training_features(path), extractors_of(model)};
 }
 
+ism::WordWorth worth_of(const std::string& measure) {
+    if (measure == "occurrences") return ism::word_occurrences;
+    if (measure == "gain") return ism::word_information_gain;
+    return ism::vote_agreement;
+}
+
 /// The images of a data set, named as seen from its folder.
 ism::TrainingSet named_images(const ism::Dataset& dataset) {
     ism::TrainingSet set = ism::training_set(dataset);
@@ -54,6 +61,7 @@ void run_train(const TrainCommand& command) {
     const Stopwatch watch;
     check_output(command.model, std::array{command.data, command.add_to});
     ism::TrainOptions options = command.options;
+    options.selection.worth = worth_of(command.best_words);
     ism::check(options);
     std::optional<Known> known;
     if (!command.add_to.empty()) known = lessons_of(command.add_to, options);

@@ -9,6 +9,8 @@
 
 #include <compare>
 
+#include "ism/config.hpp"
+
 namespace ism {
 
 /// @brief A version of this library (semantic versioning).

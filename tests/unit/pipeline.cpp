@@ -179,6 +179,9 @@ TEST_CASE("words of two channels of other lengths vote together") {
     REQUIRE(features.samples.size() == 2);
     CHECK(features.samples[0].descriptors.dimension() == 128);
     CHECK(features.samples[1].descriptors.dimension() == 625);
+    const auto twice = ism::append(features, features);
+    for (std::uint32_t c = 0, number = 0; c < 2; ++c)
+        for (const ism::Occurrence& o : twice.samples[c].occurrences) CHECK(o.feature == number++);
     const ism::Model model = ism::learn(features);
     REQUIRE(model.channels.size() == 2);
     REQUIRE(model.words() == model.channels[0].codebook.size() + model.channels[1].codebook.size());

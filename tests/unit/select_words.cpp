@@ -2,9 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "ism/train/select_words.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "support/catch.hpp"
+
+#include "ism/core/random.hpp"
+#include "ism/train/vote_agreement.hpp"
 
 namespace {
 
@@ -46,26 +52,73 @@ ism::Model model_of(const ism::ShapeModel& shapes) {
 }  // namespace
 
 TEST_CASE("the share of right votes follows from place, scale and class by hand") {
-    const std::vector<double> alike = {1, 1};
-    const auto share = [&](const std::vector<ism::Occurrence>& word, const ism::Occurrence& feature) {
-        return ism::right_vote_share(word, feature, alike);
+    const auto agreement = [](const std::vector<ism::Occurrence>& word) {
+        ism::ShapeModel shapes;
+        shapes.class_names = {"a", "b"};
+        shapes.occurrences.push_back(word);
+        return ism::vote_agreement(shapes, 1).front();
     };
-    CHECK(share({seen(0, 0, 20), seen(1, 0, 20)}, seen(0, 0, 20)) == Approx(1));
-    CHECK(share({seen(0, 0, 20)}, seen(0, 0, 20)) == 0);  // only the own object
-    // half a bandwidth beside: 1 - 1/4
-    CHECK(share({seen(1, 0, 0)}, seen(0, 0, float(ism::X::bandwidth / 2))) == Approx(0.75));
-    // 1.2 times the scale: the vote is for 24 - 20 * 1.2 = 0, of scale 1.2
-    const double u = 0.2 / ism::Scale::bandwidth;
-    CHECK(share({seen(1, 0, 20)}, seen(0, 0, 24, 1.2f)) == Approx(1 - u * u));
-    // one of two votes is for another class; the class with more occurrences counts less
-    const std::vector<ism::Occurrence> both = {seen(1, 0, 5), seen(2, 1, 5)};
-    CHECK(share(both, seen(0, 0, 5)) == Approx(0.5));
-    CHECK(ism::right_vote_share(both, seen(0, 0, 5), std::vector<double>{3, 1}) == Approx(0.25));
+    CHECK(agreement({seen(0, 0, 20), seen(1, 0, 20)}) == Approx(1));
+    CHECK(agreement({seen(0, 0, 20)}) == 0);  // only the own object
+    CHECK(agreement({seen(0, 0, 20), seen(0, 0, 20)}) == 0);
+    // half a bandwidth beside: 1 - 1/4, both ways
+    CHECK(agreement({seen(1, 0, 0), seen(0, 0, float(ism::X::bandwidth / 2))}) == Approx(0.75));
+    // 1.2 times the scale: the vote is for 24 - 20 * 1.2 = 0, of scale 1.2; and the other way of 1 / 1.2
+    const double u = 0.2 / ism::Scale::bandwidth, v = (1 - 1 / 1.2) / ism::Scale::bandwidth;
+    CHECK(agreement({seen(1, 0, 20), seen(0, 0, 24, 1.2f)}) == Approx(1 - u * u / 2 - v * v / 2));
+    // each of three features has a vote of the right class and one of the other, or both of the other; the
+    // class with more occurrences counts less
+    const double right = (1.0 / 2) / (1.0 / 2 + 1);
+    CHECK(agreement({seen(0, 0, 5), seen(1, 0, 5), seen(2, 1, 5)}) == Approx(right));
+}
+
+TEST_CASE("vote agreement is that of comparing all occurrences of a word with all") {
+    ism::Random random(3);
+    ism::ShapeModel shapes;
+    shapes.class_names = {"a", "b", "c"};
+    for (const std::uint32_t count : {1u, 0u, 7u, 150u, 1200u}) {
+        std::vector<ism::Occurrence> word;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const auto object = std::uint32_t(random.index(30));
+            ism::Occurrence o =
+                seen(object, object % 3, float(40 * random.normal()), float(std::exp(0.4 * random.normal())));
+            o.y = float(40 * random.normal());
+            if (i % 5 == 4) {  // as another, for another object
+                o = word.back();
+                o.object = object, o.class_index = object % 3;
+            }
+            word.push_back(o);
+        }
+        shapes.occurrences.push_back(word);
+    }
+    std::vector<double> of_class(3, 0);
+    for (const ism::Occurrence& o : shapes.occurrences.values()) of_class[o.class_index] += 1;
+    const auto agreement = ism::vote_agreement(shapes, 2);
+    REQUIRE(agreement.size() == 5);
+    CHECK(agreement[4] > 0);
+    for (std::size_t w = 0; w < 5; ++w) {
+        double sum = 0;
+        for (const ism::Occurrence& f : shapes.occurrences[w]) {
+            double all = 0, right = 0;
+            for (const ism::Occurrence& o : shapes.occurrences[w]) {
+                if (o.object == f.object) continue;
+                all += 1 / of_class[o.class_index];
+                const double ratio = double(f.scale) / o.scale;
+                const double x = (f.x - o.x * ratio) / ism::X::bandwidth;
+                const double y = (f.y - o.y * ratio) / ism::Y::bandwidth;
+                const double s = (ratio - 1) / ism::Scale::bandwidth;
+                if (o.class_index == f.class_index)
+                    right += std::max(0.0, 1 - x * x - y * y - s * s) / of_class[o.class_index];
+            }
+            if (all > 0) sum += right / all / of_class[f.class_index];
+        }
+        CHECK(agreement[w] == Approx(sum).epsilon(1e-5));
+    }
 }
 
 TEST_CASE("words whose votes agree are worth most; gain and number do not see the place") {
     const ism::ShapeModel shapes = four_words();
-    const auto agreement = ism::word_worth(shapes, ism::WordMeasure::vote_agreement);
+    const auto agreement = ism::vote_agreement(shapes);
     REQUIRE(agreement.size() == 4);
     // class 0 has 6 occurrences, class 1 has 4
     CHECK(agreement[0] == Approx(2.0 / 6));
@@ -75,20 +128,11 @@ TEST_CASE("words whose votes agree are worth most; gain and number do not see th
     CHECK(agreement[2] == Approx(2.0 / 6 * right_a + 2.0 / 4 * right_b));
     CHECK(agreement[3] == 0);
 
-    CHECK(ism::word_worth(shapes, ism::WordMeasure::occurrences) == std::vector<double>{2, 2, 4, 2});
-    const auto gain = ism::word_worth(shapes, ism::WordMeasure::information_gain);
+    CHECK(ism::word_occurrences(shapes) == std::vector<double>{2, 2, 4, 2});
+    const auto gain = ism::word_information_gain(shapes);
     CHECK(gain[0] == Approx(gain[1]));
     CHECK(gain[2] < gain[0]);
     CHECK(ism::vote_agreement(shapes, 1) == ism::vote_agreement(shapes, 2));
-}
-
-TEST_CASE("of large words an even part is asked") {
-    ism::ShapeModel shapes;
-    shapes.class_names = {"a"};
-    std::vector<ism::Occurrence> word;
-    for (std::uint32_t i = 0; i < 1000; ++i) word.push_back(seen(i, 0, 7));
-    shapes.occurrences.push_back(word);
-    CHECK(ism::vote_agreement(shapes, 1, 10)[0] == Approx(ism::vote_agreement(shapes, 1, 1000)[0]));
     CHECK(ism::vote_agreement({}).empty());
 }
 

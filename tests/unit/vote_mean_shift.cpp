@@ -15,6 +15,7 @@
 #include "ism/vote/kernel.hpp"
 #include "ism/vote/mean_shift.hpp"
 #include "ism/vote/strongest_modes.hpp"
+#include "ism/vote/vote_tree.hpp"
 
 namespace {
 
@@ -130,6 +131,13 @@ void check_against_direct(std::size_t count) {
         CHECK(modes[m].scale == Approx(direct[m].scale).epsilon(1e-4));
         CHECK(modes[m].score == Approx(direct[m].score).epsilon(1e-4));
     }
+    ism::MeanShiftMemory<D, ism::VoteTree<D>> memory;
+    const auto by_tree = ism::find_modes<K>(all, bandwidth, every, memory);
+    REQUIRE(by_tree.size() == direct.size());
+    for (std::size_t m = 0; m < direct.size(); ++m) {
+        CHECK(std::sqrt(ism::sq_windows(by_tree[m].at, direct[m].at, bandwidth.at(direct[m].scale))) < 1e-4);
+        CHECK(by_tree[m].score == Approx(direct[m].score).epsilon(1e-4));
+    }
     // what the merge radius leaves out is no mode of its own
     auto merging = every;
     merging.merge_radius = ism::MeanShiftOptions{}.merge_radius;
@@ -151,13 +159,16 @@ bool same_bits(const std::vector<A>& a, const std::vector<B>& b) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("the grid finds just the votes in the window", "", ism::FlatKernel, ism::GaussianKernel) {
+TEMPLATE_TEST_CASE("the grid and the tree find just the votes in the window", "", ism::FlatKernel,
+                   ism::GaussianKernel) {
     ism::Random random(5);
     for (const std::size_t count : {1, 800, 3000}) {
         const auto votes = random_votes<3>(count, random);
         const ism::Bandwidth<3> bandwidth{{10, 14, 9}, {grows, grows, stays}};
         const ism::VoteGrid<3> grid(votes, bandwidth);
         REQUIRE(grid.size() == count);
+        ism::VoteTree<3> tree;
+        tree.assign(votes, bandwidth);
         for (int trial = 0; trial < 60; ++trial) {
             const std::array<double, 3> at{random.uniform(-60, 260), random.uniform(-60, 260),
                                            random.uniform(-30, 30)};
@@ -169,6 +180,10 @@ TEMPLATE_TEST_CASE("the grid finds just the votes in the window", "", ism::FlatK
                 if (ism::sq_windows(votes[i].at, at, window) <= TestType::reach * TestType::reach)
                     expected.push_back(i);
             std::sort(found.begin(), found.end());
+            CHECK(found == expected);
+            found.clear();
+            tree.each_within(at, window, TestType::reach,
+                             [&](std::uint32_t i, double) { found.push_back(i); });
             CHECK(found == expected);
         }
     }
@@ -430,6 +445,30 @@ TEMPLATE_TEST_CASE("the support of a mode is what a scan of all votes of its lab
         for (const auto& [i, kernel] : mode.support) score += double(own[i].weight) * kernel;
         CHECK(score == Approx(mode.score).epsilon(1e-4));
     }
+}
+
+TEST_CASE("the strongest modes by the tree are those by the grid") {
+    ism::Random random(13);
+    std::vector<ism::Vote<4>> votes;
+    for (std::uint32_t label = 0; label < 20; ++label) {
+        const auto part = random_votes<4>(200, random, label);
+        votes.insert(votes.end(), part.begin(), part.end());
+    }
+    const auto bandwidth = mixed_bandwidth<4>(15);
+    const auto labels = ism::split_by_label(std::span<const ism::Vote<4>>(votes));
+    const std::span<const std::span<const ism::Vote<4>>> parts(labels);
+    const auto grid = ism::strongest_modes<ism::EpanechnikovKernel>(parts, bandwidth, {}, 30, 0.1, 2);
+    const auto tree =
+        ism::strongest_modes<ism::EpanechnikovKernel, 4, ism::VoteTree<4>>(parts, bandwidth, {}, 30, 0.1, 2);
+    REQUIRE(grid.size() == 30);
+    REQUIRE(tree.size() == grid.size());
+    for (std::size_t m = 0; m < grid.size(); ++m) {
+        CHECK(tree[m].label == grid[m].label);
+        CHECK(tree[m].score == Approx(grid[m].score).epsilon(1e-3));
+    }
+    STATIC_REQUIRE(ism::VoteSearch<ism::VoteGrid<4>, 4>);
+    STATIC_REQUIRE(ism::VoteSearch<ism::VoteTree<4>, 4>);
+    STATIC_REQUIRE(!ism::VoteSearch<ism::VoteTree<4>, 3>);
 }
 
 TEST_CASE("an option of mean shift that is out of range is named with its range and value") {

@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "ism/config.hpp"
+
 namespace ism::detail {
 
 /// A cluster and how far it is.

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "ism/config.hpp"
 #include "ism/core/random.hpp"
 
 namespace ism::detail {

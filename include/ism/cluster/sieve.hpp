@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "ism/config.hpp"
 #include "ism/core/processor.hpp"
 
 #if ISM_DETAIL_X86

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <span>
 
+#include "ism/config.hpp"
+
 namespace ism::detail {
 
 /// Orders rows so that those near each other stand together: halves at the median of the coordinate that

@@ -13,6 +13,7 @@
 
 #include "ism/codebook/byte_kernels.hpp"
 #include "ism/codebook/byte_row.hpp"
+#include "ism/config.hpp"
 #include "ism/core/aligned.hpp"
 
 namespace ism::detail {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "ism/codebook/filter.hpp"
+#include "ism/config.hpp"
 #include "ism/core/processor.hpp"
 
 #if ISM_DETAIL_X86

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "ism/config.hpp"
 #include "ism/core/processor.hpp"
 
 namespace ism::detail {

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <span>
 
+#include "ism/config.hpp"
+
 namespace ism::detail {
 
 /// Descriptors are matched in blocks, a whole number of tiles; a tile is a whole number of what each kernel

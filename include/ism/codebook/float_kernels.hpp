@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "ism/codebook/filter.hpp"
+#include "ism/config.hpp"
 #include "ism/core/processor.hpp"
 
 namespace ism::detail {

@@ -6,6 +6,8 @@
 #include <new>
 #include <vector>
 
+#include "ism/config.hpp"
+
 namespace ism {
 
 /// @brief Allocates at addresses that are multiples of a cache line, 64 bytes: what a vector unit loads from

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <string>
 
+#include "ism/config.hpp"
+
 /// Numbers as text: the same in every locale, so that a file is valid wherever it was written.
 namespace ism {
 

@@ -9,6 +9,8 @@
 
 #include <initializer_list>
 
+#include "ism/config.hpp"
+
 #if defined(__x86_64__) && defined(__GNUC__)
 #define ISM_DETAIL_X86 1
 /// Lets the compiler use these instructions in one function.

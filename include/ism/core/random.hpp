@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "ism/config.hpp"
+
 namespace ism {
 
 /// @brief A small seeded generator (SplitMix64; Steele, Lea, Flood 2014) whose numbers are the same on every

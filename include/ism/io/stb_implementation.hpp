@@ -34,6 +34,8 @@
 #else
 #include <stb_image.h>
 #include <stb_image_write.h>
+
+#include "ism/config.hpp"
 #endif
 #undef STB_IMAGE_IMPLEMENTATION
 #undef STB_IMAGE_WRITE_IMPLEMENTATION

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "ism/config.hpp"
+
 namespace ism {
 
 /// @brief Turns scores into probabilities, which can be compared between images and classes: for each class a

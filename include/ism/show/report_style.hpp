@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+#include "ism/config.hpp"
+
 namespace ism::detail {
 
 /// How reports look (CSS): one light column, tables and rows of images scroll sideways on a phone.

@@ -113,9 +113,7 @@ private:
         all.summary.features_used += part.summary.features_used;
         part = {};
     }
-    std::uint32_t feature = 0;
-    for (TrainingSamples& channel : all.samples)
-        for (Occurrence& o : channel.occurrences) o.feature = feature++;
+    number_features(all.samples);
     return all;
 }
 

@@ -60,15 +60,19 @@ namespace detail {
 /// The words that the options ask for.
 [[nodiscard]] inline Model select_words(Model model, const WordSelection& selection, unsigned threads) {
     if (selection.min_information_gain > 0) {
-        const auto gain = word_worth(model.shapes, WordMeasure::information_gain);
+        const auto gain = word_information_gain(model.shapes);
         const double best = *std::max_element(gain.begin(), gain.end());
         expect(best >= selection.min_information_gain, "training: least information gain",
                lazy_text("at most that of the best word, ", best), selection.min_information_gain);
         model = keep_words(model, words_worth(gain, selection.min_information_gain));
     }
-    if (selection.max_words > 0)
-        model = keep_words(
-            model, best_words(word_worth(model.shapes, selection.measure, threads), selection.max_words));
+    if (selection.max_words > 0) {
+        const auto worth = selection.worth ? selection.worth(model.shapes, threads)
+                                           : word_information_gain(model.shapes, threads);
+        expect(worth.size() == model.words(), "WordSelection::worth: numbers, one a word", model.words(),
+               worth.size());
+        model = keep_words(model, best_words(worth, selection.max_words));
+    }
     return model;
 }
 

@@ -14,24 +14,29 @@
 #include "ism/model/model.hpp"
 #include "ism/train/information_gain.hpp"
 #include "ism/train/occurrence_weights.hpp"
-#include "ism/train/train_options.hpp"
-#include "ism/train/vote_agreement.hpp"
 
 namespace ism {
 
-/// @brief What each word is worth: one number a word, 0 or more; larger is better.
-[[nodiscard]] inline std::vector<double> word_worth(const ShapeModel& shapes, WordMeasure measure,
-                                                    unsigned threads = 0) {
-    if (measure == WordMeasure::vote_agreement) return vote_agreement(shapes, threads);
-    const std::size_t words = shapes.occurrences.size(), classes = shapes.class_names.size();
-    std::vector<double> counts(words * classes, 0), seen(words, 0);
-    for (std::size_t w = 0; w < words; ++w)
-        for (const Occurrence& o : shapes.occurrences[w])
-            counts[w * classes + o.class_index] += 1, seen[w] += 1;
-    return measure == WordMeasure::occurrences ? seen : information_gain(counts, classes);
+/// @brief How often each word was seen. A WordWorth.
+[[nodiscard]] inline std::vector<double> word_occurrences(const ShapeModel& shapes,
+                                                          unsigned /*threads*/ = 0) {
+    std::vector<double> counts;
+    for (std::size_t w = 0; w < shapes.occurrences.size(); ++w)
+        counts.push_back(double(shapes.occurrences[w].size()));
+    return counts;
 }
 
-/// @brief The words that are worth at least so much, in rising order.
+/// @brief What each word tells about the class (Eq 3). A WordWorth.
+[[nodiscard]] inline std::vector<double> word_information_gain(const ShapeModel& shapes,
+                                                               unsigned /*threads*/ = 0) {
+    const std::size_t words = shapes.occurrences.size(), classes = shapes.class_names.size();
+    std::vector<double> counts(words * classes, 0);
+    for (std::size_t w = 0; w < words; ++w)
+        for (const Occurrence& o : shapes.occurrences[w]) counts[w * classes + o.class_index] += 1;
+    return information_gain(counts, classes);
+}
+
+/// @brief The words that are worth at least `least`, in rising order.
 [[nodiscard]] inline std::vector<std::uint32_t> words_worth(std::span<const double> worth, double least) {
     std::vector<std::uint32_t> chosen;
     for (std::uint32_t w = 0; w < worth.size(); ++w)

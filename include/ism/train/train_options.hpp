@@ -4,12 +4,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "ism/core/error.hpp"
 #include "ism/core/progress.hpp"
 
 namespace ism {
+
+struct ShapeModel;
 
 /// @brief How features are collected from training images.
 struct TrainingFeatureOptions {
@@ -34,18 +38,15 @@ struct CodebookOptions {
     std::uint64_t seed = 1;            ///< chooses that part
 };
 
-/// @brief What tells which words are worth keeping.
-enum class WordMeasure {
-    occurrences,       ///< how often the word was seen (as T_Q, the smallest cluster size)
-    information_gain,  ///< what it tells about the class (Eq 3)
-    vote_agreement,    ///< how much of what it votes is right: class, centre and scale; see vote_agreement()
-};
+/// @brief What each word of a model is worth: one number a word, 0 or more; larger is better. See
+/// word_occurrences(), word_information_gain() and vote_agreement().
+using WordWorth = std::function<std::vector<double>(const ShapeModel& shapes, unsigned threads)>;
 
 /// @brief Which words stay.
 struct WordSelection {
     double min_information_gain = 0;  ///< words that tell less about the class are dropped (T_IG)
-    std::size_t max_words = 0;        ///< of more words the best by `measure` stay; 0 = all
-    WordMeasure measure = WordMeasure::vote_agreement;
+    std::size_t max_words = 0;        ///< of more words the best stay; 0 = all
+    WordWorth worth = {};             ///< what is best; none = word_information_gain()
 };
 
 /// @brief How the classifier of boxes is fitted, on labelled boxes and on hypotheses in training images whose

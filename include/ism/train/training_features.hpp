@@ -68,6 +68,13 @@ namespace detail {
     return index;
 }
 
+/// Numbers the features through all channels.
+inline void number_features(std::span<TrainingSamples> samples) {
+    std::uint32_t feature = 0;
+    for (TrainingSamples& channel : samples)
+        for (Occurrence& o : channel.occurrences) o.feature = feature++;
+}
+
 }  // namespace detail
 
 /// @brief Training features of more images: of more classes, or more examples of the same (by name).
@@ -85,7 +92,6 @@ namespace detail {
     }
     const std::vector<std::uint32_t> class_of = detail::join_names(all.class_names, more.class_names);
     const auto objects = static_cast<std::uint32_t>(all.objects.size());
-    const auto features = static_cast<std::uint32_t>(all.feature_count());
     for (TrainingObject& object : more.objects) {
         object.class_index = class_of[object.class_index];
         all.objects.push_back(std::move(object));
@@ -94,10 +100,11 @@ namespace detail {
         for (std::size_t i = 0; i < more.samples[c].occurrences.size(); ++i) {
             Occurrence o = more.samples[c].occurrences[i];
             o.class_index = class_of[o.class_index];
-            o.object += objects, o.feature += features;
+            o.object += objects;
             all.samples[c].occurrences.push_back(o);
             all.samples[c].descriptors.push_back(more.samples[c].descriptors.row(i));
         }
+    detail::number_features(all.samples);
     for (TrainingView& view : more.views) {
         for (ObjectLabel& label : view.labels) label.class_index = class_of[label.class_index];
         view.first_object += objects, view.end_object += objects;

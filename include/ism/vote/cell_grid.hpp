@@ -8,6 +8,8 @@
 #include <concepts>
 #include <cstddef>
 
+#include "ism/config.hpp"
+
 namespace ism {
 
 /// @brief Boxes of equal size over a part of a space of three axes. Cells along the first axis have numbers

@@ -6,6 +6,8 @@
 #include <concepts>
 #include <cstdint>
 
+#include "ism/config.hpp"
+
 namespace ism {
 
 /// @brief A mean shift kernel by its profile over u² = Σ ((v − c) / bandwidth)², with value 1 at 0 and never

@@ -15,6 +15,7 @@
 #include "ism/vote/mode.hpp"
 #include "ism/vote/start_bins.hpp"
 #include "ism/vote/vote_grid.hpp"
+#include "ism/vote/vote_search.hpp"
 #include "ism/vote/window_sums.hpp"
 
 namespace ism {
@@ -43,10 +44,10 @@ inline void check(const MeanShiftOptions& options) {
 
 /// @brief Goes to the mean of the votes in the window, and takes the window's scale from them.
 /// @return the squared length of the step, in windows; 0 where the window is empty
-template <Kernel K, std::size_t Dimension>
-double shift_once(const VoteGrid<Dimension>& grid, Mode<Dimension>& mode) {
-    const auto window = grid.bandwidth().at(mode.scale);
-    const auto mean = window_mean<K>(grid, mode.at, window);
+template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
+double shift_once(const Search& search, Mode<Dimension>& mode) {
+    const auto window = search.bandwidth().at(mode.scale);
+    const auto mean = window_mean<K>(search, mode.at, window);
     if (!(mean.weight > 0)) return 0;
     const double ratio = mean.scale / mode.scale - 1;
     const double sq_step = sq_windows(mean.at, mode.at, window) + ratio * ratio;
@@ -57,14 +58,14 @@ double shift_once(const VoteGrid<Dimension>& grid, Mode<Dimension>& mode) {
 /// @brief The modes reached from `starts`, strongest first; of modes less than one window apart only the
 /// strongest stays. Fewer starts end at a mode of their own than there are: most come by one that is known.
 /// @throws Error for an option out of range.
-template <Kernel K, std::size_t Dimension>
-[[nodiscard]] std::vector<Mode<Dimension>> find_modes(const VoteGrid<Dimension>& grid,
+template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
+[[nodiscard]] std::vector<Mode<Dimension>> find_modes(const Search& search,
                                                       std::span<const Mode<Dimension>> starts,
                                                       const MeanShiftOptions& options = {}) {
     check(options);
     std::vector<Mode<Dimension>> modes, apart;
     const auto near = [&](const Mode<Dimension>& mode, const Mode<Dimension>& other, double part) {
-        return sq_windows(mode.at, other.at, grid.bandwidth().at(other.scale)) < part * part;
+        return sq_windows(mode.at, other.at, search.bandwidth().at(other.scale)) < part * part;
     };
     const auto is_known = [&](const Mode<Dimension>& mode) {
         return std::any_of(modes.begin(), modes.end(), [&](const auto& other) {
@@ -75,11 +76,11 @@ template <Kernel K, std::size_t Dimension>
     for (Mode<Dimension> mode : starts) {
         bool known = is_known(mode);
         for (int i = 0; i < options.max_iterations && !known; ++i) {
-            if (shift_once<K>(grid, mode) < options.tolerance * options.tolerance) break;
+            if (shift_once<K>(search, mode) < options.tolerance * options.tolerance) break;
             known = is_known(mode);
         }
         if (known) continue;
-        mode.score = window_score<K>(grid, mode.at, grid.bandwidth().at(mode.scale));
+        mode.score = window_score<K>(search, mode.at, search.bandwidth().at(mode.scale));
         if (mode.score > 0) modes.push_back(mode);
     }
     std::stable_sort(modes.begin(), modes.end(),
@@ -91,19 +92,19 @@ template <Kernel K, std::size_t Dimension>
 }
 
 /// @brief Memory that find_modes() can use again and again: for one thread.
-template <std::size_t Dimension>
+/// @tparam Search  how votes in a window are found
+template <std::size_t Dimension, VoteSearch<Dimension> Search = VoteGrid<Dimension>>
 struct MeanShiftMemory {
-    VoteGrid<Dimension> grid;
+    Search search;
     StartBins<Dimension> bins;
 };
 
 /// @brief The votes in the window of a mode, by rising index: all with a kernel above 0.
-template <Kernel K, std::size_t Dimension>
-[[nodiscard]] std::vector<WindowVote> support_of(const VoteGrid<Dimension>& grid,
-                                                 const Mode<Dimension>& mode) {
+template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
+[[nodiscard]] std::vector<WindowVote> support_of(const Search& search, const Mode<Dimension>& mode) {
     std::vector<WindowVote> support;
-    const double reach = 1.000001 * K::reach;  // a kernel sees u² as a float, which may lie within
-    grid.each_within(mode.at, grid.bandwidth().at(mode.scale), reach, [&](std::uint32_t i, double sq_u) {
+    const auto window = search.bandwidth().at(mode.scale);
+    search.each_within(mode.at, window, detail::rounded_reach<K>, [&](std::uint32_t i, double sq_u) {
         if (const double kernel = K::profile(float(sq_u)); kernel > 0) support.push_back({i, kernel});
     });
     std::sort(support.begin(), support.end(),
@@ -114,14 +115,14 @@ template <Kernel K, std::size_t Dimension>
 namespace detail {
 
 /// The modes of votes and options that were checked.
-template <Kernel K, std::size_t Dimension>
+template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
 [[nodiscard]] std::vector<Mode<Dimension>> find_modes_of(std::span<const Vote<Dimension>> votes,
                                                          const Bandwidth<Dimension>& bandwidth,
                                                          const MeanShiftOptions& options,
-                                                         MeanShiftMemory<Dimension>& memory) {
-    memory.grid.assign(votes, bandwidth);
+                                                         MeanShiftMemory<Dimension, Search>& memory) {
+    memory.search.assign(votes, bandwidth);
     const auto starts = memory.bins.find(votes, bandwidth, options.max_starts, options.min_relative_weight);
-    return find_modes<K>(memory.grid, starts, options);
+    return find_modes<K>(memory.search, starts, options);
 }
 
 }  // namespace detail
@@ -129,16 +130,16 @@ template <Kernel K, std::size_t Dimension>
 /// @brief The modes of votes of one label, strongest first: mean shift from the heaviest bins.
 /// @throws Error for a bandwidth that is not a positive number, a vote that check() refuses, an option out of
 /// range.
-template <Kernel K, std::size_t Dimension>
+template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
 [[nodiscard]] std::vector<Mode<Dimension>> find_modes(std::span<const Vote<Dimension>> votes,
                                                       const Bandwidth<Dimension>& bandwidth,
                                                       const MeanShiftOptions& options,
-                                                      MeanShiftMemory<Dimension>& memory) {
+                                                      MeanShiftMemory<Dimension, Search>& memory) {
     check(votes, bandwidth);
     return detail::find_modes_of<K>(votes, bandwidth, options, memory);
 }
 
-/// @brief The same in memory of its own.
+/// @brief The same in memory of its own, with VoteGrid.
 template <Kernel K, std::size_t Dimension>
 [[nodiscard]] std::vector<Mode<Dimension>> find_modes(std::span<const Vote<Dimension>> votes,
                                                       const Bandwidth<Dimension>& bandwidth,

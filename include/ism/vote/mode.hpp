@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "ism/config.hpp"
+
 namespace ism {
 
 /// @brief A place where votes gather.

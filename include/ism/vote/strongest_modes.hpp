@@ -62,9 +62,10 @@ template <std::size_t Dimension>
 /// over.
 /// @param labels  the votes of each label, as split_by_label() gives them; the support of a mode has indices
 /// into those of its label
+/// @tparam Search  how votes in a window are found
 /// @return the same for any number of threads
 /// @throws Error as find_modes() does, and for a least relative score outside 0 to 1
-template <Kernel K, std::size_t Dimension>
+template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search = VoteGrid<Dimension>>
 [[nodiscard]] std::vector<SupportedMode<Dimension>> strongest_modes(
     std::span<const std::span<const Vote<Dimension>>> labels, const Bandwidth<Dimension>& bandwidth,
     const MeanShiftOptions& options, std::size_t max_count, double min_relative_score, ThreadPool& pool) {
@@ -78,7 +79,7 @@ template <Kernel K, std::size_t Dimension>
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return bound[a] > bound[b]; });
 
-    std::vector<MeanShiftMemory<Dimension>> memory(pool.size());
+    std::vector<MeanShiftMemory<Dimension, Search>> memory(pool.size());
     std::vector<SupportedMode<Dimension>> strongest;
     std::size_t at_once = 16;  // not the number of threads, on which the result must not depend
     for (std::size_t first = 0; first < labels.size() && max_count > 0; first += at_once, at_once *= 2) {
@@ -90,11 +91,11 @@ template <Kernel K, std::size_t Dimension>
             ++count;
         std::vector<std::vector<SupportedMode<Dimension>>> found(count);
         pool.for_each(count, [&](std::size_t i, unsigned worker) {
-            MeanShiftMemory<Dimension>& own = memory[worker];
+            MeanShiftMemory<Dimension, Search>& own = memory[worker];
             const auto modes = detail::find_modes_of<K>(labels[order[first + i]], bandwidth, options, own);
             for (const Mode<Dimension>& mode : modes)
                 if (mode.score >= std::max(least, min_relative_score * modes.front().score))
-                    found[i].push_back({mode, support_of<K>(own.grid, mode)});
+                    found[i].push_back({mode, support_of<K>(own.search, mode)});
         });
         for (auto& modes : found)
             strongest.insert(strongest.end(), std::move_iterator(modes.begin()),
@@ -106,13 +107,14 @@ template <Kernel K, std::size_t Dimension>
 }
 
 /// @brief The same on `threads` threads of its own; 0 = all hardware threads.
-template <Kernel K, std::size_t Dimension>
+template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search = VoteGrid<Dimension>>
 [[nodiscard]] std::vector<SupportedMode<Dimension>> strongest_modes(
     std::span<const std::span<const Vote<Dimension>>> labels, const Bandwidth<Dimension>& bandwidth,
     const MeanShiftOptions& options, std::size_t max_count, double min_relative_score, unsigned threads) {
     ThreadPool pool(
         unsigned(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(1, labels.size()))));
-    return strongest_modes<K>(labels, bandwidth, options, max_count, min_relative_score, pool);
+    return strongest_modes<K, Dimension, Search>(labels, bandwidth, options, max_count, min_relative_score,
+                                                 pool);
 }
 
 }  // namespace ism

@@ -5,14 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "ism/vote/kernel.hpp"
 #include "ism/vote/vote_grid.hpp"
 #include "ism/vote/vote_lanes.hpp"
+#include "ism/vote/vote_search.hpp"
 
 namespace ism {
 
 namespace detail {
+
+/// A kernel sees u² as a float, which may lie within its reach where the double does not.
+template <Kernel K>
+inline constexpr double rounded_reach = 1.000001 * K::reach;
 
 template <Kernel K, std::size_t Dimension>
 struct MeanSums {
@@ -95,6 +101,34 @@ template <Kernel K, std::size_t Dimension>
                                   const std::array<double, Dimension>& window) {
     const detail::FloatWindow<Dimension> place(at, window);
     return detail::sum_of(detail::sum_window<detail::ScoreSum<K, Dimension>, K>(grid, place, window).score);
+}
+
+/// @brief The same of any search that has votes().
+template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
+[[nodiscard]] WindowMean<Dimension> window_mean(const Search& search, const std::array<double, Dimension>& at,
+                                                const std::array<double, Dimension>& window) {
+    WindowMean<Dimension> mean;
+    search.each_within(at, window, detail::rounded_reach<K>, [&](std::uint32_t i, double sq_u) {
+        const Vote<Dimension>& vote = search.votes()[i];
+        const double weight = double(K::shift(float(sq_u))) * vote.weight;
+        mean.weight += weight;
+        mean.scale += weight * vote.scale;
+        for (std::size_t k = 0; k < Dimension; ++k) mean.at[k] += weight * vote.at[k];
+    });
+    mean.scale /= mean.weight;
+    for (double& value : mean.at) value /= mean.weight;
+    return mean;
+}
+
+/// @brief The same of any search that has votes().
+template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
+[[nodiscard]] double window_score(const Search& search, const std::array<double, Dimension>& at,
+                                  const std::array<double, Dimension>& window) {
+    double score = 0;
+    search.each_within(at, window, detail::rounded_reach<K>, [&](std::uint32_t i, double sq_u) {
+        score += double(K::profile(float(sq_u))) * search.votes()[i].weight;
+    });
+    return score;
 }
 
 }  // namespace ism
