@@ -22,6 +22,7 @@
 #include "support/search_data.hpp"
 #include <CLI/CLI.hpp>
 
+#include "ism/codebook/build_codebook.hpp"
 #include "ism/codebook/match.hpp"
 
 namespace {
