@@ -6,21 +6,16 @@
 #include <array>
 #include <cstddef>
 
+#include "ism/core/lanes.hpp"
 #include "ism/vote/vote_grid.hpp"
 
 // Sums over votes as a vector unit makes them.
 namespace ism::detail {
 
-/// Votes that are added side by side, whatever the processor: the bits of the sums do not depend on it.
+/// Votes that are added side by side.
 inline constexpr std::size_t lanes = 16;
 
-using Lanes = std::array<float, lanes>;
-
-[[nodiscard]] inline double sum_of(const Lanes& values) {
-    double sum = 0;
-    for (const float value : values) sum += value;
-    return sum;
-}
+using VoteLanes = Lanes<float, lanes>;
 
 /// A window in float, as votes are.
 template <std::size_t Dimension>
@@ -56,7 +51,7 @@ void add_run(Sums& sums, const VoteColumns<Dimension>& votes, const FloatWindow<
         for (std::size_t l = 0; l < lanes; ++l)
             local.add(l, votes, window, first + l, votes.weight[first + l]);
     if (first < last) {
-        Lanes tail{};
+        std::array<float, lanes> tail{};
         for (std::size_t l = 0; first + l < last; ++l) tail[l] = votes.weight[first + l];
         for (std::size_t l = 0; l < lanes; ++l) local.add(l, votes, window, first + l, tail[l]);
     }
