@@ -68,7 +68,7 @@ ism::Detections find(const std::vector<std::string>& names, const std::vector<is
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
 
-ism::Detections find(const ism::Model<ism::HessianLaplace, ism::RootSift>& model, const ism::Frame& frame) {
+ism::Detections find(const ism::TypedModel<ism::HessianLaplace, ism::RootSift>& model, const ism::Frame& frame) {
     return ism::detect<ism::Jism>(model, frame);
 }
 )",

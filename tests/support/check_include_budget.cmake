@@ -7,20 +7,20 @@ cmake_minimum_required(VERSION 3.22)
 #   header | headers of ours it may reach | libraries it may reach (of those below)
 set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "immintrin.h" "iostream" "regex")
 set(budget
-    "ism.hpp                    | 108 | Eigen/ immintrin.h"
-    "vote/axes.hpp              |  14 | "
-    "detect/detect.hpp          |  66 | immintrin.h"
-    "train/train_options.hpp    |  44 | "
+    "ism.hpp                    | 125 | Eigen/ immintrin.h"
+    "vote/axes.hpp              |  13 | "
+    "detect/detect.hpp          |  84 | immintrin.h"
+    "train/train_options.hpp    |   6 | "
     "train/training_image.hpp   |  10 | "
-    "train/train.hpp            |  95 | Eigen/ immintrin.h"
-    "evaluate/evaluate.hpp      |  14 | "
-    "core/frame.hpp             |   9 | "
-    "feature/hessian_laplace.hpp|  21 | immintrin.h"
-    "feature/sift.hpp           |  20 | immintrin.h"
-    "dataset/dataset.hpp        |  21 | stb/"
-    "dataset/coco.hpp           |  25 | nlohmann/ stb/"
-    "io/images.hpp              |  14 | stb/"
-    "model_file/model_file.hpp  |  44 | nlohmann/"
+    "train/train.hpp            | 114 | Eigen/ immintrin.h"
+    "evaluate/evaluate.hpp      |  10 | "
+    "core/frame.hpp             |   8 | "
+    "feature/hessian_laplace.hpp|  26 | immintrin.h"
+    "feature/sift.hpp           |  24 | immintrin.h"
+    "dataset/dataset.hpp        |  13 | "
+    "dataset/coco.hpp           |  18 | nlohmann/"
+    "io/images.hpp              |  12 | stb/"
+    "model_file/model_file.hpp  |  53 | nlohmann/"
 )
 set(errors "")
 
@@ -97,8 +97,7 @@ foreach(line IN LISTS budget)
     endif()
 endforeach()
 
-# Whatever is included first, an old standard ends the compilation in one line: every header reaches config.hpp. These
-# few do not yet; they are small parts that others include.
+# Whatever is included first, an old standard ends the compilation in one line: every header reaches config.hpp.
 foreach(header IN LISTS headers)
     reach("${header}")
     if(NOT "config.hpp" IN_LIST reached)

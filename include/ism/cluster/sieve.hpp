@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "ism/config.hpp"
+#include "ism/core/lanes.hpp"
 #include "ism/core/processor.hpp"
 
 #if ISM_DETAIL_X86
@@ -53,18 +53,14 @@ using SievePassed = std::array<std::uint16_t, sieve_rows>;
     return passed;
 }
 
-/// The sum of squared differences, the same for (a, b) and (b, a). `count` is a multiple of 8. A difference
-/// is rounded to float once; its square is exact in double, so that a fused multiply-add rounds like two
-/// steps, and eight sums are added in one order: the same bits for every instruction set.
+/// The sum of squared differences, the same for (a, b) and (b, a). A difference is rounded to float once; its
+/// square is exact in double, so that a fused multiply-add rounds like two steps: the same bits for every
+/// instruction set.
 ISM_DETAIL_INLINE float sq_difference_body(const float* a, const float* b, std::size_t count) {
-    constexpr std::size_t lanes = 8;
-    double sum[lanes] = {};
-    for (std::size_t k = 0; k < count; k += lanes)
-        for (std::size_t l = 0; l < lanes; ++l) {
-            const float difference = a[k + l] - b[k + l];
-            sum[l] += double(difference) * double(difference);
-        }
-    return float(((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7])));
+    return float(sum_in_lanes<double, 8>(count, [=](std::size_t k) {
+        const float difference = a[k] - b[k];
+        return double(difference) * double(difference);
+    }));
 }
 
 [[nodiscard]] inline float sq_difference_any(const float* a, const float* b, std::size_t count) {
@@ -72,12 +68,9 @@ ISM_DETAIL_INLINE float sq_difference_body(const float* a, const float* b, std::
 }
 
 /// About the same in float, with rounding that depends on the instruction set: the relative error is below
-/// rough_error(count), beside an absolute one of numbers that float cannot hold.
+/// rough_error(count), beside an absolute one of numbers that float cannot hold. `count` is a multiple of 8.
 [[nodiscard]] inline float rough_sq_difference_any(const float* a, const float* b, std::size_t count) {
-    std::array<float, 8> parts{};
-    for (std::size_t k = 0; k < count; k += 8)
-        for (std::size_t j = 0; j < 8; ++j) parts[j] += (a[k + j] - b[k + j]) * (a[k + j] - b[k + j]);
-    return ((parts[0] + parts[4]) + (parts[2] + parts[6])) + ((parts[1] + parts[5]) + (parts[3] + parts[7]));
+    return sum_in_lanes<float, 8>(count, [=](std::size_t k) { return (a[k] - b[k]) * (a[k] - b[k]); });
 }
 
 /// For each of `count` / 8 products and sums, and as many again for the rest, half a last digit.

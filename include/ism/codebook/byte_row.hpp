@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "ism/config.hpp"
+#include "ism/core/lanes.hpp"
 #include "ism/core/processor.hpp"
 
 namespace ism::detail {
@@ -56,8 +56,8 @@ ISM_DETAIL_INLINE void round_eights(const float* __restrict row, const double* _
         const float kept = wanted > 0 ? wanted : 0;
         bytes[k] = std::uint8_t(std::int32_t(kept < top ? kept : top));
     }
-    constexpr std::size_t lanes = 8;  // sums side by side, which the compiler adds at once
-    double sq_error[lanes] = {}, along[lanes] = {}, sq_length[lanes] = {}, sum[lanes] = {};
+    constexpr std::size_t lanes = 8;
+    Lanes<double, lanes> sq_error, along, sq_length, sum;
     for (std::size_t k = 0; k < size; k += lanes)
         for (std::size_t l = 0; l < lanes; ++l) {
             const double byte = bytes[k + l], value = origin + step * byte;
@@ -65,13 +65,12 @@ ISM_DETAIL_INLINE void round_eights(const float* __restrict row, const double* _
             sq_error[l] += error * error, along[l] += error * centre[k + l];
             sq_length[l] += off * off, sum[l] += byte;
         }
-    for (std::size_t l = 0; l < lanes; ++l) {
-        lost.error += sq_error[l], lost.along += along[l];
-        lost.length += sq_length[l], lost.sum += sum[l];
-    }
+    lost.error += sq_error.sum(), lost.along += along.sum();
+    lost.length += sq_length.sum(), lost.sum += sum.sum();
 }
 
-/// Writes a row of numbers as bytes.
+/// Writes a row of numbers as bytes. On x86 only for processors with AVX2 and FMA, as all filters in bytes:
+/// see byte_kernel().
 #if ISM_DETAIL_X86
 ISM_DETAIL_TARGET("avx2,fma")
 #endif

@@ -4,23 +4,17 @@
 
 #include <cstddef>
 
+#include "ism/core/lanes.hpp"
 #include "ism/core/processor.hpp"
 #include "ism/feature/feature.hpp"
 
 namespace ism::detail {
 
-/// Eight sums side by side, added up in one order. A product of two floats, or of a float and
-/// a byte, is exact in double, so that a
-/// fused multiply-add rounds like two steps: the same bits on every processor.
+/// A product of two floats, or of a float and a byte, is exact in double, so that a fused multiply-add rounds
+/// like two steps: the same bits on every processor.
 template <DescriptorScalar T>
 ISM_DETAIL_INLINE double dot_body(const float* a, const T* b, std::size_t size) {
-    constexpr std::size_t lanes = 8;
-    double sum[lanes] = {};
-    std::size_t k = 0;
-    for (; k + lanes <= size; k += lanes)
-        for (std::size_t l = 0; l < lanes; ++l) sum[l] += double(a[k + l]) * double(b[k + l]);
-    for (std::size_t l = 0; k + l < size; ++l) sum[l] += double(a[k + l]) * double(b[k + l]);
-    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+    return sum_in_lanes<double, 8>(size, [=](std::size_t k) { return double(a[k]) * double(b[k]); });
 }
 
 template <DescriptorScalar T>

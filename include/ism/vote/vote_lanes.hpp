@@ -6,21 +6,16 @@
 #include <array>
 #include <cstddef>
 
+#include "ism/core/lanes.hpp"
 #include "ism/vote/vote_grid.hpp"
 
 // Sums over votes as a vector unit makes them.
 namespace ism::detail {
 
-/// Votes that are added side by side, whatever the processor: the bits of the sums do not depend on it.
-inline constexpr std::size_t vote_lanes = 16;
+/// Votes that are added side by side.
+inline constexpr std::size_t vote_lane_count = 16;
 
-using Lanes = std::array<float, vote_lanes>;
-
-[[nodiscard]] inline double sum_of(const Lanes& values) {
-    double sum = 0;
-    for (const float value : values) sum += value;
-    return sum;
-}
+using VoteLanes = Lanes<float, vote_lane_count>;
 
 /// A window in float, as votes are.
 template <std::size_t Dimension>
@@ -52,13 +47,13 @@ template <class Sums, std::size_t Dimension>
 void add_run(Sums& sums, const VoteColumns<Dimension>& votes, const FloatWindow<Dimension>& window,
              std::size_t first, std::size_t last) {
     Sums local = sums;
-    for (; first + vote_lanes <= last; first += vote_lanes)
-        for (std::size_t l = 0; l < vote_lanes; ++l)
+    for (; first + vote_lane_count <= last; first += vote_lane_count)
+        for (std::size_t l = 0; l < vote_lane_count; ++l)
             local.add(l, votes, window, first + l, votes.weight[first + l]);
     if (first < last) {
-        Lanes tail{};
+        std::array<float, vote_lane_count> tail{};
         for (std::size_t l = 0; first + l < last; ++l) tail[l] = votes.weight[first + l];
-        for (std::size_t l = 0; l < vote_lanes; ++l) local.add(l, votes, window, first + l, tail[l]);
+        for (std::size_t l = 0; l < vote_lane_count; ++l) local.add(l, votes, window, first + l, tail[l]);
     }
     sums = local;
 }

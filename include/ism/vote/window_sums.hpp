@@ -22,8 +22,8 @@ inline constexpr double rounded_reach = 1.000001 * K::reach;
 
 template <Kernel K, std::size_t Dimension>
 struct MeanSums {
-    Lanes weight{}, scale{};
-    std::array<Lanes, Dimension> at{};
+    VoteLanes weight{}, scale{};
+    std::array<VoteLanes, Dimension> at{};
 
     void add(std::size_t lane, const VoteColumns<Dimension>& votes, const FloatWindow<Dimension>& window,
              std::size_t i, float vote_weight) {
@@ -43,7 +43,7 @@ struct MeanSums {
 
 template <Kernel K, std::size_t Dimension>
 struct ScoreSum {
-    Lanes score{};
+    VoteLanes score{};
 
     void add(std::size_t lane, const VoteColumns<Dimension>& votes, const FloatWindow<Dimension>& window,
              std::size_t i, float vote_weight) {
@@ -60,7 +60,7 @@ struct ScoreSum {
 template <class Sums, Kernel K, std::size_t Dimension>
 [[nodiscard]] Sums sum_window(const VoteGrid<Dimension>& grid, const FloatWindow<Dimension>& place,
                               const std::array<double, Dimension>& window) {
-    static_assert(vote_lanes <= VoteGrid<Dimension>::padding);
+    static_assert(vote_lane_count <= VoteGrid<Dimension>::padding);
     std::array<double, Dimension> at;
     std::copy(place.centre.begin(), place.centre.end(), at.begin());
     const VoteColumns<Dimension> votes(grid);
@@ -88,10 +88,10 @@ template <Kernel K, std::size_t Dimension>
                                                 const std::array<double, Dimension>& window) {
     const detail::FloatWindow<Dimension> place(at, window);
     const auto sums = detail::sum_window<detail::MeanSums<K, Dimension>, K>(grid, place, window);
-    WindowMean<Dimension> mean{.weight = detail::sum_of(sums.weight)};
-    mean.scale = detail::sum_of(sums.scale) / mean.weight;
+    WindowMean<Dimension> mean{.weight = sums.weight.template sum<double>()};
+    mean.scale = sums.scale.template sum<double>() / mean.weight;
     for (std::size_t k = 0; k < Dimension; ++k)
-        mean.at[k] = double(place.centre[k]) + detail::sum_of(sums.at[k]) / mean.weight;
+        mean.at[k] = double(place.centre[k]) + sums.at[k].template sum<double>() / mean.weight;
     return mean;
 }
 
@@ -100,7 +100,8 @@ template <Kernel K, std::size_t Dimension>
 [[nodiscard]] double window_score(const VoteGrid<Dimension>& grid, const std::array<double, Dimension>& at,
                                   const std::array<double, Dimension>& window) {
     const detail::FloatWindow<Dimension> place(at, window);
-    return detail::sum_of(detail::sum_window<detail::ScoreSum<K, Dimension>, K>(grid, place, window).score);
+    const auto sums = detail::sum_window<detail::ScoreSum<K, Dimension>, K>(grid, place, window);
+    return sums.score.template sum<double>();
 }
 
 /// @brief The same of any search that has votes().
