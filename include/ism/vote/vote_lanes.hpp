@@ -41,7 +41,7 @@ struct VoteColumns {
     }
 };
 
-/// Adds votes first ... last - 1 to `sums`, so many side by side, by `sums.add(lane, vote, weight)`. What is
+/// Adds votes first ... last - 1 to `sums`, `lanes` side by side, by `sums.add(lane, vote, weight)`. What is
 /// added to is a copy, of which a compiler knows that no column overlaps it.
 template <class Sums, std::size_t Dimension>
 void add_run(Sums& sums, const VoteColumns<Dimension>& votes, const FloatWindow<Dimension>& window,

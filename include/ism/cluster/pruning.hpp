@@ -17,38 +17,40 @@
 
 namespace ism::detail {
 
-inline constexpr std::size_t sieve_depth = 48;    // numbers of a cluster that the sieve looks at
-inline constexpr std::size_t sieve_rows = 6;      // clusters of a strip, with
-inline constexpr std::size_t sieve_columns = 16;  // those of a panel: what fits into 16 vector registers
+inline constexpr std::size_t projected_dimension = 48;  // coordinates that bounds are taken from
+inline constexpr std::size_t tile_rows = 6;             // clusters of a strip, with
+inline constexpr std::size_t tile_columns = 16;  // those of a panel: what fits into 16 vector registers
 
-/// Clusters of a strip. A pair passes where dot − start − start ≥ the lower of its two bars.
-struct SieveStrip {
-    std::array<const float*, sieve_rows> numbers;  ///< of each row
-    const float* start;  ///< half the squared lengths, a little less; infinity: passes never
-    const float* bar;    ///< minus half the squared distance that still counts
+/// Clusters of a strip. A pair passes where dot − half_sq_norm − half_sq_norm, at most minus half its squared
+/// distance, is not below the lower of its two cutoffs.
+struct TileRows {
+    std::array<const float*, tile_rows> numbers;  ///< of each row
+    const float* half_sq_norm;  ///< half the squared lengths, rounded down; infinity: never passes
+    const float* cutoff;        ///< minus half the largest squared distance of interest
 };
 
 /// Clusters of a panel.
-struct SievePanel {
+struct TileColumns {
     const float* numbers;  ///< number k of all columns side by side, for each k
-    const float* start;
-    const float* bar;
+    const float* half_sq_norm;
+    const float* cutoff;
 };
 
 /// Which columns pass with each row: bit c of element r.
-using SievePassed = std::array<std::uint16_t, sieve_rows>;
+using TileMask = std::array<std::uint16_t, tile_rows>;
 
 /// @brief All pairs of a strip and a panel, plainly.
-[[nodiscard]] inline SievePassed sieve_plain(const SieveStrip& strip, const SievePanel& panel) {
-    SievePassed passed{};
-    for (std::size_t r = 0; r < sieve_rows; ++r) {
-        std::array<float, sieve_columns> sum;
-        for (std::size_t c = 0; c < sieve_columns; ++c) sum[c] = -strip.start[r] - panel.start[c];
-        for (std::size_t k = 0; k < sieve_depth; ++k)
-            for (std::size_t c = 0; c < sieve_columns; ++c)
-                sum[c] += strip.numbers[r][k] * panel.numbers[k * sieve_columns + c];
-        for (std::size_t c = 0; c < sieve_columns; ++c)
-            passed[r] |= std::uint16_t((sum[c] >= std::min(strip.bar[r], panel.bar[c])) << c);
+[[nodiscard]] inline TileMask prune_tile_any(const TileRows& strip, const TileColumns& panel) {
+    TileMask passed{};
+    for (std::size_t r = 0; r < tile_rows; ++r) {
+        std::array<float, tile_columns> sum;
+        for (std::size_t c = 0; c < tile_columns; ++c)
+            sum[c] = -strip.half_sq_norm[r] - panel.half_sq_norm[c];
+        for (std::size_t k = 0; k < projected_dimension; ++k)
+            for (std::size_t c = 0; c < tile_columns; ++c)
+                sum[c] += strip.numbers[r][k] * panel.numbers[k * tile_columns + c];
+        for (std::size_t c = 0; c < tile_columns; ++c)
+            passed[r] |= std::uint16_t((sum[c] >= std::min(strip.cutoff[r], panel.cutoff[c])) << c);
     }
     return passed;
 }
@@ -73,35 +75,35 @@ ISM_DETAIL_INLINE float sq_difference_body(const float* a, const float* b, std::
     return sum_in_lanes<float, 8>(count, [=](std::size_t k) { return (a[k] - b[k]) * (a[k] - b[k]); });
 }
 
-/// For each of `count` / 8 products and sums, and as many again for the rest, half a last digit.
+/// For each of `count` / 8 products and sums, twice that for the rest, half a last digit.
 [[nodiscard]] constexpr float rough_error(std::size_t count) {
     return float(count / 4 + 16) * 0x1p-24f;
 }
 
 #if ISM_DETAIL_X86
-/// @brief sieve_plain() for processors with AVX2 and FMA.
+/// @brief prune_tile_any() for processors with AVX2 and FMA.
 ISM_DETAIL_TARGET("avx2,fma")
-inline SievePassed sieve_avx2(const SieveStrip& strip, const SievePanel& panel) {
-    const __m256 start[2] = {_mm256_loadu_ps(panel.start), _mm256_loadu_ps(panel.start + 8)};
-    __m256 sum[sieve_rows][2];
-    for (std::size_t r = 0; r < sieve_rows; ++r)
+inline TileMask prune_tile_avx2(const TileRows& strip, const TileColumns& panel) {
+    const __m256 norm[2] = {_mm256_loadu_ps(panel.half_sq_norm), _mm256_loadu_ps(panel.half_sq_norm + 8)};
+    __m256 sum[tile_rows][2];
+    for (std::size_t r = 0; r < tile_rows; ++r)
         for (std::size_t h = 0; h < 2; ++h)
-            sum[r][h] = _mm256_sub_ps(_mm256_set1_ps(-strip.start[r]), start[h]);
-    for (std::size_t k = 0; k < sieve_depth; ++k) {
-        const __m256 left = _mm256_loadu_ps(panel.numbers + k * sieve_columns);
-        const __m256 right = _mm256_loadu_ps(panel.numbers + k * sieve_columns + 8);
-        for (std::size_t r = 0; r < sieve_rows; ++r) {
+            sum[r][h] = _mm256_sub_ps(_mm256_set1_ps(-strip.half_sq_norm[r]), norm[h]);
+    for (std::size_t k = 0; k < projected_dimension; ++k) {
+        const __m256 left = _mm256_loadu_ps(panel.numbers + k * tile_columns);
+        const __m256 right = _mm256_loadu_ps(panel.numbers + k * tile_columns + 8);
+        for (std::size_t r = 0; r < tile_rows; ++r) {
             const __m256 one = _mm256_broadcast_ss(strip.numbers[r] + k);
             sum[r][0] = _mm256_fmadd_ps(one, left, sum[r][0]);
             sum[r][1] = _mm256_fmadd_ps(one, right, sum[r][1]);
         }
     }
-    SievePassed passed{};
-    const __m256 bar[2] = {_mm256_loadu_ps(panel.bar), _mm256_loadu_ps(panel.bar + 8)};
-    for (std::size_t r = 0; r < sieve_rows; ++r) {
-        const __m256 own = _mm256_set1_ps(strip.bar[r]);
-        const __m256 left = _mm256_cmp_ps(sum[r][0], _mm256_min_ps(own, bar[0]), _CMP_GE_OQ);
-        const __m256 right = _mm256_cmp_ps(sum[r][1], _mm256_min_ps(own, bar[1]), _CMP_GE_OQ);
+    TileMask passed{};
+    const __m256 cutoff[2] = {_mm256_loadu_ps(panel.cutoff), _mm256_loadu_ps(panel.cutoff + 8)};
+    for (std::size_t r = 0; r < tile_rows; ++r) {
+        const __m256 own = _mm256_set1_ps(strip.cutoff[r]);
+        const __m256 left = _mm256_cmp_ps(sum[r][0], _mm256_min_ps(own, cutoff[0]), _CMP_GE_OQ);
+        const __m256 right = _mm256_cmp_ps(sum[r][1], _mm256_min_ps(own, cutoff[1]), _CMP_GE_OQ);
         passed[r] = std::uint16_t(_mm256_movemask_ps(left) | _mm256_movemask_ps(right) << 8);
     }
     return passed;
@@ -134,15 +136,15 @@ inline float rough_sq_difference_avx2(const float* a, const float* b, std::size_
 #endif
 
 /// @brief The functions above for an instruction set.
-struct SieveKernel {
-    SievePassed (*sieve)(const SieveStrip&, const SievePanel&) = sieve_plain;
+struct DistanceKernels {
+    TileMask (*prune_tile)(const TileRows&, const TileColumns&) = prune_tile_any;
     float (*sq_difference)(const float*, const float*, std::size_t) = sq_difference_any;
     float (*rough_sq_difference)(const float*, const float*, std::size_t) = rough_sq_difference_any;
 
-    explicit SieveKernel([[maybe_unused]] InstructionSet isa) {
+    explicit DistanceKernels([[maybe_unused]] InstructionSet isa) {
 #if ISM_DETAIL_X86
         if (isa == InstructionSet::any) return;
-        sieve = sieve_avx2;
+        prune_tile = prune_tile_avx2;
         sq_difference = sq_difference_avx2;
         rough_sq_difference = rough_sq_difference_avx2;
 #endif
