@@ -114,6 +114,35 @@ inline float sq_difference_avx2(const float* a, const float* b, std::size_t coun
     return sq_difference_body(a, b, count);
 }
 
+/// The same lanes in half as many instructions.
+ISM_DETAIL_TARGET("avx512f")
+inline float sq_difference_avx512(const float* a, const float* b, std::size_t count) {
+    __m512d lanes = _mm512_setzero_pd();
+    for (std::size_t k = 0; k < count; k += 8) {
+        const __m512d d = _mm512_cvtps_pd(_mm256_sub_ps(_mm256_loadu_ps(a + k), _mm256_loadu_ps(b + k)));
+        lanes = _mm512_fmadd_pd(d, d, lanes);
+    }
+    Lanes<double, 8> sums;
+    _mm512_storeu_pd(sums.sums.data(), lanes);
+    return float(sums.sum());
+}
+
+ISM_DETAIL_TARGET("avx512f")
+inline float rough_sq_difference_avx512(const float* a, const float* b, std::size_t count) {
+    __m512 sum = _mm512_setzero_ps();
+    std::size_t k = 0;
+    for (; k + 16 <= count; k += 16) {
+        const __m512 d = _mm512_sub_ps(_mm512_loadu_ps(a + k), _mm512_loadu_ps(b + k));
+        sum = _mm512_fmadd_ps(d, d, sum);
+    }
+    if (k < count) {
+        const __m512 d =
+            _mm512_sub_ps(_mm512_maskz_loadu_ps(0xff, a + k), _mm512_maskz_loadu_ps(0xff, b + k));
+        sum = _mm512_fmadd_ps(d, d, sum);
+    }
+    return _mm512_reduce_add_ps(sum);
+}
+
 /// @brief rough_sq_difference_any() for processors with AVX2 and FMA.
 ISM_DETAIL_TARGET("avx2,fma")
 inline float rough_sq_difference_avx2(const float* a, const float* b, std::size_t count) {
@@ -147,6 +176,9 @@ struct DistanceKernels {
         prune_tile = prune_tile_avx2;
         sq_difference = sq_difference_avx2;
         rough_sq_difference = rough_sq_difference_avx2;
+        if (isa == InstructionSet::avx2) return;
+        sq_difference = sq_difference_avx512;
+        rough_sq_difference = rough_sq_difference_avx512;
 #endif
     }
 };
