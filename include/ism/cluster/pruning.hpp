@@ -119,7 +119,9 @@ ISM_DETAIL_TARGET("avx512f")
 inline float sq_difference_avx512(const float* a, const float* b, std::size_t count) {
     __m512d lanes = _mm512_setzero_pd();
     for (std::size_t k = 0; k < count; k += 8) {
-        const __m512d d = _mm512_cvtps_pd(_mm256_sub_ps(_mm256_loadu_ps(a + k), _mm256_loadu_ps(b + k)));
+        // maskz: g++ 12 warns of an uninitialised value in _mm512_cvtps_pd()
+        const __m512d d =
+            _mm512_maskz_cvtps_pd(0xff, _mm256_sub_ps(_mm256_loadu_ps(a + k), _mm256_loadu_ps(b + k)));
         lanes = _mm512_fmadd_pd(d, d, lanes);
     }
     Lanes<double, 8> sums;
@@ -140,7 +142,9 @@ inline float rough_sq_difference_avx512(const float* a, const float* b, std::siz
             _mm512_sub_ps(_mm512_maskz_loadu_ps(0xff, a + k), _mm512_maskz_loadu_ps(0xff, b + k));
         sum = _mm512_fmadd_ps(d, d, sum);
     }
-    return _mm512_reduce_add_ps(sum);
+    Lanes<float, 16> sums;
+    _mm512_storeu_ps(sums.sums.data(), sum);
+    return sums.sum();
 }
 
 /// @brief rough_sq_difference_any() for processors with AVX2 and FMA.
