@@ -13,9 +13,9 @@
 namespace ism::detail {
 
 /// Votes that are added side by side.
-inline constexpr std::size_t lanes = 16;
+inline constexpr std::size_t vote_lane_count = 16;
 
-using VoteLanes = Lanes<float, lanes>;
+using VoteLanes = Lanes<float, vote_lane_count>;
 
 /// A window in float, as votes are.
 template <std::size_t Dimension>
@@ -41,19 +41,19 @@ struct VoteColumns {
     }
 };
 
-/// Adds votes first ... last - 1 to `sums`, `lanes` side by side, by `sums.add(lane, vote, weight)`. What is
-/// added to is a copy, of which a compiler knows that no column overlaps it.
+/// Adds votes first ... last - 1 to `sums`, `vote_lane_count` side by side, by `sums.add(lane, vote,
+/// weight)`. What is added to is a copy, of which a compiler knows that no column overlaps it.
 template <class Sums, std::size_t Dimension>
 void add_run(Sums& sums, const VoteColumns<Dimension>& votes, const FloatWindow<Dimension>& window,
              std::size_t first, std::size_t last) {
     Sums local = sums;
-    for (; first + lanes <= last; first += lanes)
-        for (std::size_t l = 0; l < lanes; ++l)
+    for (; first + vote_lane_count <= last; first += vote_lane_count)
+        for (std::size_t l = 0; l < vote_lane_count; ++l)
             local.add(l, votes, window, first + l, votes.weight[first + l]);
     if (first < last) {
-        std::array<float, lanes> tail{};
+        std::array<float, vote_lane_count> tail{};
         for (std::size_t l = 0; first + l < last; ++l) tail[l] = votes.weight[first + l];
-        for (std::size_t l = 0; l < lanes; ++l) local.add(l, votes, window, first + l, tail[l]);
+        for (std::size_t l = 0; l < vote_lane_count; ++l) local.add(l, votes, window, first + l, tail[l]);
     }
     sums = local;
 }

@@ -60,7 +60,7 @@ struct ScoreSum {
 template <class Sums, Kernel K, std::size_t Dimension>
 [[nodiscard]] Sums sum_window(const VoteGrid<Dimension>& grid, const FloatWindow<Dimension>& place,
                               const std::array<double, Dimension>& window) {
-    static_assert(lanes <= VoteGrid<Dimension>::padding);
+    static_assert(vote_lane_count <= VoteGrid<Dimension>::padding);
     std::array<double, Dimension> at;
     std::copy(place.centre.begin(), place.centre.end(), at.begin());
     const VoteColumns<Dimension> votes(grid);
