@@ -32,7 +32,7 @@ void measure(std::size_t count) {
         return memory.search.size();
     };
     BENCHMARK("starts, " + size) {
-        return memory.bins.find(all, bandwidth, options.max_starts, options.min_relative_weight).size();
+        return memory.bins.find(all, bandwidth, options.max_seeds, options.min_relative_weight).size();
     };
     BENCHMARK("one step, " + size) {
         ism::Mode<D> mode = modes.front();

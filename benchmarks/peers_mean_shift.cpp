@@ -84,8 +84,8 @@ template <std::size_t D>
     const std::span<const ism::Vote<D>> all(votes);
     const auto bandwidth = fixed_bandwidth<D>();
     const ism::MeanShiftOptions options{.max_iterations = 500};  // to rest: else both stop on their way
-    ism::StartBins<D> bins;
-    const auto starts = bins.find(all, bandwidth, options.max_starts, options.min_relative_weight);
+    ism::SeedBins<D> bins;
+    const auto starts = bins.find(all, bandwidth, options.max_seeds, options.min_relative_weight);
     std::vector<ism::Mode<D>> ours, peer;
     const auto times = bench::interleaved_ms(
         {[&] { ours = ism::find_modes<K>(all, bandwidth, options); },
@@ -115,7 +115,7 @@ template <std::size_t D>
     for (auto& vote : votes) vote.weight = 1;  // it knows no weights
     const std::span<const ism::Vote<D>> all(votes);
     const auto bandwidth = fixed_bandwidth<D>();
-    ism::StartBins<D> bins;
+    ism::SeedBins<D> bins;
     const auto starts = bins.find(all, bandwidth, 30, 0.05);
 
     const fs::path folder = fs::temp_directory_path() / ("ism_mean_shift_" + std::to_string(std::rand()));

@@ -283,29 +283,30 @@ TEST_CASE("clustering refuses what it cannot cluster") {
 TEST_CASE("a search finds the nearest of all pairs that it is asked for") {
     using namespace ism::detail;
     ism::Random random(21);
-    // so many that squads have several blocks, and few; without others, and with
+    // so many that groups have several blocks, and few; without others, and with
     for (const auto& [count, asked] :
          {std::pair{6500u, 6500u}, {1000u, 5u}, {500u, 300u}, {17u, 17u}, {2u, 1u}}) {
         const Points points = random_points(count, 6, 40, random);
         for (const unsigned threads : {1u, 3u}) {
             ism::ThreadPool pool(threads);
-            const LiveClusters live(points.moments(), pool);
-            NearLists lists(count, 0.5f);
-            std::vector<std::uint32_t> all = live.spatial_order();
+            const ActiveClusters clusters(points.moments(), pool);
+            NeighbourLists lists(count, 0.5f);
+            std::vector<std::uint32_t> all = clusters.spatial_order();
             const std::span<const std::uint32_t> asking = std::span(all).first(asked);
-            NearSearch(live, lists, asking, std::span(all).subspan(asked)).run(pool);
+            NeighbourSearch(clusters, lists, asking, std::span(all).subspan(asked)).run(pool);
             std::size_t wrong = 0;
             for (const std::uint32_t i : asking.first(std::min(asked, 500u))) {
                 std::vector<float> distances;
                 for (std::uint32_t j = 0; j < count; ++j)
-                    if (const float d = live.sq_distance(i, j); j != i && d < 0.5f) distances.push_back(d);
+                    if (const float d = clusters.sq_distance(i, j); j != i && d < 0.5f)
+                        distances.push_back(d);
                 std::sort(distances.begin(), distances.end());
-                const std::size_t fit = std::min(distances.size(), NearLists::capacity);
+                const std::size_t fit = std::min(distances.size(), NeighbourLists::capacity);
                 wrong += lists.of(i).size() != fit;
-                wrong += lists.reach(i) != (fit < distances.size() ? distances[fit] : 0.5f);
+                wrong += lists.sq_radius(i) != (fit < distances.size() ? distances[fit] : 0.5f);
                 for (std::size_t k = 0; k < fit && k < lists.of(i).size(); ++k) {
                     wrong += lists.of(i)[k].sq_distance != distances[k];
-                    wrong += lists.of(i)[k].sq_distance != live.sq_distance(i, lists.of(i)[k].cluster);
+                    wrong += lists.of(i)[k].sq_distance != clusters.sq_distance(i, lists.of(i)[k].cluster);
                 }
             }
             CHECK(wrong == 0);
@@ -314,7 +315,7 @@ TEST_CASE("a search finds the nearest of all pairs that it is asked for") {
     }
 }
 
-TEST_CASE("the sieve passes what is near, whatever processor it runs on") {
+TEST_CASE("pruning lets pass what is near, whatever processor it runs on") {
     using namespace ism::detail;
     ism::Random random(9);
     const auto normal = [&](std::size_t count) {
@@ -322,22 +323,23 @@ TEST_CASE("the sieve passes what is near, whatever processor it runs on") {
         for (float& value : numbers) value = float(random.normal());
         return numbers;
     };
-    const auto strip = normal(sieve_rows * sieve_depth), panel = normal(sieve_columns * sieve_depth);
-    auto row_start = normal(sieve_rows), column_start = normal(sieve_columns);
-    const auto row_bar = normal(sieve_rows), column_bar = normal(sieve_columns);
-    row_start[1] = column_start[7] = std::numeric_limits<float>::infinity();
-    SieveStrip rows{{}, row_start.data(), row_bar.data()};
-    for (std::size_t r = 0; r < sieve_rows; ++r) rows.numbers[r] = strip.data() + r * sieve_depth;
-    const SievePanel columns{panel.data(), column_start.data(), column_bar.data()};
-    const SieveKernel kernel(ism::best_instruction_set());
-    const SievePassed passed = kernel.sieve(rows, columns), plain = sieve_plain(rows, columns);
+    const auto strip = normal(tile_rows * projected_dimension),
+               panel = normal(tile_columns * projected_dimension);
+    auto row_norm = normal(tile_rows), column_norm = normal(tile_columns);
+    const auto row_cutoff = normal(tile_rows), column_cutoff = normal(tile_columns);
+    row_norm[1] = column_norm[7] = std::numeric_limits<float>::infinity();
+    TileRows rows{{}, row_norm.data(), row_cutoff.data()};
+    for (std::size_t r = 0; r < tile_rows; ++r) rows.numbers[r] = strip.data() + r * projected_dimension;
+    const TileColumns columns{panel.data(), column_norm.data(), column_cutoff.data()};
+    const DistanceKernels kernels(ism::best_instruction_set());
+    const TileMask passed = kernels.prune_tile(rows, columns), plain = prune_tile_any(rows, columns);
     std::size_t compared = 0;
-    for (std::size_t r = 0; r < sieve_rows; ++r)
-        for (std::size_t c = 0; c < sieve_columns; ++c) {
-            double sum = -double(row_start[r]) - double(column_start[c]);
-            for (std::size_t k = 0; k < sieve_depth; ++k)
-                sum += double(strip[r * sieve_depth + k]) * double(panel[k * sieve_columns + c]);
-            const double above = sum - double(std::min(row_bar[r], column_bar[c]));
+    for (std::size_t r = 0; r < tile_rows; ++r)
+        for (std::size_t c = 0; c < tile_columns; ++c) {
+            double sum = -double(row_norm[r]) - double(column_norm[c]);
+            for (std::size_t k = 0; k < projected_dimension; ++k)
+                sum += double(strip[r * projected_dimension + k]) * double(panel[k * tile_columns + c]);
+            const double above = sum - double(std::min(row_cutoff[r], column_cutoff[c]));
             if (std::abs(above) < 1e-4) continue;
             ++compared;
             CHECK((passed[r] >> c & 1) == (above > 0));
@@ -358,13 +360,13 @@ TEST_CASE("squared differences are the same bits for every instruction set") {
             for (std::size_t k = 0; k < count; ++k)
                 sum += (double(a[k]) - double(b[k])) * (double(a[k]) - double(b[k]));
             const float exact =
-                SieveKernel(ism::InstructionSet::any).sq_difference(a.data(), b.data(), count);
+                DistanceKernels(ism::InstructionSet::any).sq_difference(a.data(), b.data(), count);
             CHECK(exact == Approx(sum).epsilon(1e-6).margin(1e-45));
             for (const ism::InstructionSet isa : instruction_sets()) {
-                const SieveKernel kernel(isa);
-                CHECK(kernel.sq_difference(a.data(), b.data(), count) == exact);
-                CHECK(kernel.sq_difference(b.data(), a.data(), count) == exact);
-                const float rough = kernel.rough_sq_difference(a.data(), b.data(), count);
+                const DistanceKernels kernels(isa);
+                CHECK(kernels.sq_difference(a.data(), b.data(), count) == exact);
+                CHECK(kernels.sq_difference(b.data(), a.data(), count) == exact);
+                const float rough = kernels.rough_sq_difference(a.data(), b.data(), count);
                 CHECK(std::abs(rough - exact) <= rough_error(count) * exact + float(count) * 0x1p-126f);
             }
         }

@@ -97,9 +97,9 @@ template <class K, std::size_t D>
 std::vector<ism::Mode<D>> direct_modes(const std::vector<ism::Vote<D>>& votes,
                                        const ism::Bandwidth<D>& bandwidth,
                                        const ism::MeanShiftOptions& options) {
-    ism::StartBins<D> bins;
+    ism::SeedBins<D> bins;
     std::vector<ism::Mode<D>> modes, apart;
-    for (const auto& start : bins.find(std::span<const ism::Vote<D>>(votes), bandwidth, options.max_starts,
+    for (const auto& start : bins.find(std::span<const ism::Vote<D>>(votes), bandwidth, options.max_seeds,
                                        options.min_relative_weight))
         modes.push_back(direct_mode<K>(votes, bandwidth, start, options));
     std::stable_sort(modes.begin(), modes.end(),
@@ -118,7 +118,7 @@ void check_against_direct(std::size_t count) {
     const auto votes = random_votes<D>(count, random);
     const auto bandwidth = mixed_bandwidth<D>(20);
     const std::span<const ism::Vote<D>> all(votes);
-    const ism::MeanShiftOptions every{.max_starts = 60,
+    const ism::MeanShiftOptions every{.max_seeds = 60,
                                       .min_relative_weight = 0,
                                       .max_iterations = 500,
                                       .tolerance = 1e-7,
@@ -255,7 +255,7 @@ TEST_CASE("mean shift starts at the heaviest bins, and no bin is taken for anoth
     for (const auto& [key, bin] : bins) expected.push_back(bin);
     std::sort(expected.begin(), expected.end(),
               [](const auto& a, const auto& b) { return a.score > b.score; });
-    ism::StartBins<2> finder;
+    ism::SeedBins<2> finder;
     const auto found = finder.find(std::span<const ism::Vote<2>>(votes), bandwidth, 10000, 0);
     REQUIRE(found.size() == expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -315,7 +315,7 @@ TEST_CASE("absurd bandwidths give an error or a result, never a hang") {
     for (const auto& vote : votes) total += vote.weight;
     for (const double value : {1e-300, 1e-30, 1e-12}) {  // each vote for itself
         const auto modes = ism::find_modes<ism::FlatKernel>(all, mixed_bandwidth<3>(value));
-        REQUIRE(modes.size() == ism::MeanShiftOptions{}.max_starts);
+        REQUIRE(modes.size() == ism::MeanShiftOptions{}.max_seeds);
         CHECK(modes.front().score ==
               std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
                   return a.weight < b.weight;
@@ -362,7 +362,7 @@ TEST_CASE("votes and options that mean shift cannot take are errors") {
     CHECK_THROWS_AS(modes_of(good, {.max_iterations = -1}), ism::Error);
     CHECK_THROWS_AS(modes_of(good, {.tolerance = nan}), ism::Error);
     CHECK_THROWS_AS(modes_of(good, {.merge_radius = 2}), ism::Error);
-    CHECK(modes_of(good, {.max_starts = 0}) == 0);
+    CHECK(modes_of(good, {.max_seeds = 0}) == 0);
     CHECK(modes_of(good, {.max_iterations = 0}) == 1);
 }
 

@@ -17,8 +17,8 @@ namespace ism {
 /// @brief How far an agglomeration goes.
 struct AverageLinkOptions {
     double max_sq_distance = std::numeric_limits<double>::infinity();  ///< merges beyond are left out
-    std::size_t settled = 0;  ///< so many first clusters are known to lie further apart than that from each
-                              ///< other, as those that an earlier run left do: they are not compared
+    std::size_t settled = 0;  ///< the first `settled` clusters are known to lie further apart than that from
+                              ///< each other, as those that an earlier run left do: they are not compared
     InstructionSet isa = best_instruction_set();  ///< for tests: the merges are the same bits for each
 };
 

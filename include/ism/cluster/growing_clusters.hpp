@@ -60,12 +60,12 @@ struct Clusters {
 /// @brief Clusters after points were added, and where everything went.
 struct GrownClusters {
     Clusters clusters;
-    Clustering clustering;  ///< cluster now of each cluster of before, then of each point added
+    Clustering clustering;  ///< new cluster of each existing cluster, then of each point added
 };
 
 /// @brief Adds points to clusters: average link from the present clusters and the points on, up to a
 /// distance. With the distance always the same, the descriptors of one class after another become words
-/// without those of earlier classes at hand; that costs O(M (M + N)) for M new points and N clusters. The
+/// without the descriptors of earlier classes; that costs O(M (M + N)) for M new points and N clusters. The
 /// clusters are those of a dendrogram in which the earlier points merged first, so that they depend on the
 /// order of classes a little.
 /// @param present  clusters that lie further apart than `max_sq_distance` from each other, as those this

@@ -28,7 +28,7 @@ inline void orthonormalise(Eigen::MatrixXd& columns) {
 }
 
 /// `count` orthonormal directions, one a column, near those along which the points (columns, centred) spread
-/// most: orthogonal iteration from a random start. How near does not matter to a sieve that holds for any
+/// most: orthogonal iteration from a random start. How near does not matter to bounds that hold for any
 /// directions.
 [[nodiscard]] inline Eigen::MatrixXf principal_directions(const Eigen::MatrixXf& points, Eigen::Index count) {
     Random random(1);

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "ism/cluster/active_clusters.hpp"
 #include "ism/cluster/cluster_moments.hpp"
-#include "ism/cluster/follow_merges.hpp"
-#include "ism/cluster/live_clusters.hpp"
 #include "ism/cluster/merge_trace.hpp"
-#include "ism/cluster/near_lists.hpp"
-#include "ism/cluster/near_search.hpp"
+#include "ism/cluster/neighbour_lists.hpp"
+#include "ism/cluster/neighbour_search.hpp"
+#include "ism/cluster/update_neighbours.hpp"
 #include "ism/core/processor.hpp"
 #include "ism/core/thread_pool.hpp"
 
@@ -22,7 +22,7 @@ namespace ism::detail {
 
 /// Average link by merging all reciprocal nearest neighbours of a round at once.
 ///
-/// Each cluster has a list of near ones that is complete up to some reach. A merge never brings clusters
+/// Each cluster has a list of near ones that is complete within some radius. A merge never brings clusters
 /// nearer to others than the nearer of the two was, so lists stay complete when clusters merge, and a merged
 /// cluster's list follows from those of its two. Only where nothing is left on a list, all are searched.
 class ReciprocalMerging {
@@ -32,11 +32,11 @@ public:
                       ThreadPool& pool, InstructionSet isa = best_instruction_set())
         : pool_(pool),
           settled_(settled),
-          live_(start, pool_, isa),
-          lists_(start.size(), NearLists::limit_of(max_sq_distance)),
+          clusters_(start, pool_, isa),
+          lists_(start.size(), NeighbourLists::limit_of(max_sq_distance)),
           merged_(start.size()),
-          alive_(live_.spatial_order()),
-          node_(merged_.now) {
+          alive_(clusters_.spatial_order()),
+          node_(merged_.merged_into) {
         trace_.points = std::uint32_t(start.size());
         trace_.max_sq_distance = max_sq_distance;
     }
@@ -45,10 +45,10 @@ public:
         merge_equal();
         const auto last = std::stable_partition(alive_.begin(), alive_.end(),
                                                 [&](std::uint32_t i) { return i >= settled_; });
-        NearSearch(live_, lists_, alive_, {}, std::size_t(alive_.end() - last)).run(pool_);
+        NeighbourSearch(clusters_, lists_, alive_, {}, std::size_t(alive_.end() - last)).run(pool_);
         while (keep_those_with_neighbours()) {
             merge_reciprocal();
-            follow_merges();
+            update_all_neighbours();
             search_again();
         }
         sort_merges(trace_);
@@ -64,11 +64,11 @@ private:
     /// Merges equal points before any search: many of them would fill each other's lists in every round.
     void merge_equal() {
         std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
-        for (const std::uint32_t i : alive_) keys.emplace_back(live_.fingerprint(i), i);
+        for (const std::uint32_t i : alive_) keys.emplace_back(clusters_.fingerprint(i), i);
         std::sort(keys.begin(), keys.end());
         for (std::size_t first = 0, at = 1; at < keys.size(); ++at) {
             const auto [kept, gone] = std::pair(keys[first].second, keys[at].second);
-            if (keys[first].first != keys[at].first || !live_.equal(kept, gone)) {
+            if (keys[first].first != keys[at].first || !clusters_.equal(kept, gone)) {
                 first = at;
                 continue;
             }
@@ -78,7 +78,7 @@ private:
         forget_gone();
     }
 
-    /// Clusters without a neighbour within reach are final: merging others never brings them nearer.
+    /// Clusters without a neighbour on their lists are final: merging others never brings them nearer.
     bool keep_those_with_neighbours() {
         std::erase_if(alive_, [&](std::uint32_t i) { return lists_.of(i).empty(); });
         return !alive_.empty();
@@ -110,37 +110,37 @@ private:
 
     /// Merge number t.
     void merge(std::size_t t, std::uint32_t kept, std::uint32_t gone) {
-        const double sq_distance = live_.merge(kept, gone);
-        trace_.merges[t] = {node_[kept], node_[gone], live_.points_of(kept), sq_distance};
+        const double sq_distance = clusters_.merge(kept, gone);
+        trace_.merges[t] = {node_[kept], node_[gone], clusters_.points_of(kept), sq_distance};
         node_[kept] = trace_.points + std::uint32_t(t);
-        merged_.now[gone] = kept;
+        merged_.merged_into[gone] = kept;
     }
 
     void forget_gone() {
-        std::erase_if(alive_, [&](std::uint32_t i) { return merged_.now[i] != i; });
+        std::erase_if(alive_, [&](std::uint32_t i) { return merged_.merged_into[i] != i; });
     }
 
     /// Brings all lists up to date with the merges of the round.
-    void follow_merges() {
+    void update_all_neighbours() {
         constexpr std::size_t part = 64;
         pool_.for_each((alive_.size() + part - 1) / part, [&](std::size_t p, unsigned /*worker*/) {
             for (std::size_t a = p * part; a < std::min(alive_.size(), (p + 1) * part); ++a)
-                follow(alive_[a], merged_, live_, lists_);
+                update_neighbours(alive_[a], merged_, clusters_, lists_);
         });
         for (const auto& [kept, gone] : pairs_) merged_.partner[kept] = MergedClusters::none;
     }
 
     void search_again() {
         std::vector<std::uint32_t> asking, others;
-        for (const std::uint32_t i : alive_) (lists_.sure(i) ? others : asking).push_back(i);
+        for (const std::uint32_t i : alive_) (lists_.is_exact(i) ? others : asking).push_back(i);
         for (const std::uint32_t i : asking) lists_.clear(i, std::numeric_limits<float>::max());
-        if (!asking.empty()) NearSearch(live_, lists_, asking, others).run(pool_);
+        if (!asking.empty()) NeighbourSearch(clusters_, lists_, asking, others).run(pool_);
     }
 
     ThreadPool& pool_;
     std::size_t settled_;
-    LiveClusters live_;
-    NearLists lists_;
+    ActiveClusters clusters_;
+    NeighbourLists lists_;
     MergedClusters merged_;
     std::vector<std::uint32_t> alive_;
     std::vector<std::uint32_t> node_;  // of each cluster in the trace

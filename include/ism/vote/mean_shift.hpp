@@ -13,7 +13,7 @@
 #include "ism/vote/bandwidth.hpp"
 #include "ism/vote/kernel.hpp"
 #include "ism/vote/mode.hpp"
-#include "ism/vote/start_bins.hpp"
+#include "ism/vote/seed_bins.hpp"
 #include "ism/vote/vote_grid.hpp"
 #include "ism/vote/vote_search.hpp"
 #include "ism/vote/window_sums.hpp"
@@ -22,8 +22,8 @@ namespace ism {
 
 /// @brief How modes are searched.
 struct MeanShiftOptions {
-    std::size_t max_starts = 30;        ///< heaviest bins of a label from which a search starts
-    double min_relative_weight = 0.05;  ///< of a start's bin, to that of the label's heaviest
+    std::size_t max_seeds = 30;         ///< heaviest bins of a label from which a search starts
+    double min_relative_weight = 0.05;  ///< of a seed's bin, to that of the label's heaviest
     int max_iterations = 50;
     double tolerance = 1e-3;     ///< a search ends where its step is shorter than this part of the window
     double merge_radius = 0.03;  ///< and, without a mode of its own, this part of the window from a known one
@@ -55,12 +55,12 @@ double shift_once(const Search& search, Mode<Dimension>& mode) {
     return sq_step;
 }
 
-/// @brief The modes reached from `starts`, strongest first; of modes less than one window apart only the
-/// strongest stays. Fewer starts end at a mode of their own than there are: most come by one that is known.
+/// @brief The modes reached from `seeds`, strongest first; of modes less than one window apart only the
+/// strongest stays. Fewer seeds end at a mode of their own than there are: most come by one that is known.
 /// @throws Error for an option out of range.
 template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
 [[nodiscard]] std::vector<Mode<Dimension>> find_modes(const Search& search,
-                                                      std::span<const Mode<Dimension>> starts,
+                                                      std::span<const Mode<Dimension>> seeds,
                                                       const MeanShiftOptions& options = {}) {
     check(options);
     std::vector<Mode<Dimension>> modes, apart;
@@ -73,7 +73,7 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
                    near(mode, other, options.merge_radius);
         });
     };
-    for (Mode<Dimension> mode : starts) {
+    for (Mode<Dimension> mode : seeds) {
         bool known = is_known(mode);
         for (int i = 0; i < options.max_iterations && !known; ++i) {
             if (shift_once<K>(search, mode) < options.tolerance * options.tolerance) break;
@@ -96,7 +96,7 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
 template <std::size_t Dimension, VoteSearch<Dimension> Search = VoteGrid<Dimension>>
 struct MeanShiftMemory {
     Search search;
-    StartBins<Dimension> bins;
+    SeedBins<Dimension> bins;
 };
 
 /// @brief The votes in the window of a mode, by rising index: all with a kernel above 0.
@@ -121,8 +121,8 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
                                                          const MeanShiftOptions& options,
                                                          MeanShiftMemory<Dimension, Search>& memory) {
     memory.search.assign(votes, bandwidth);
-    const auto starts = memory.bins.find(votes, bandwidth, options.max_starts, options.min_relative_weight);
-    return find_modes<K>(memory.search, starts, options);
+    const auto seeds = memory.bins.find(votes, bandwidth, options.max_seeds, options.min_relative_weight);
+    return find_modes<K>(memory.search, seeds, options);
 }
 
 }  // namespace detail

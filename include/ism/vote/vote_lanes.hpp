@@ -41,8 +41,8 @@ struct VoteColumns {
     }
 };
 
-/// Adds votes first ... last - 1 to `sums`, so many side by side, by `sums.add(lane, vote, weight)`. What is
-/// added to is a copy, of which a compiler knows that no column overlaps it.
+/// Adds votes first ... last - 1 to `sums`, `vote_lane_count` side by side, by `sums.add(lane, vote,
+/// weight)`. What is added to is a copy, of which a compiler knows that no column overlaps it.
 template <class Sums, std::size_t Dimension>
 void add_run(Sums& sums, const VoteColumns<Dimension>& votes, const FloatWindow<Dimension>& window,
              std::size_t first, std::size_t last) {

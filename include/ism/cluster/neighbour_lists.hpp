@@ -15,14 +15,14 @@
 namespace ism::detail {
 
 /// A cluster and how far it is.
-struct Near {
+struct Neighbour {
     float sq_distance;
     std::uint32_t cluster;
 };
 
-/// The nearest clusters of each cluster, nearest first, as many as fit, and how far the list is complete: all
-/// that are not on it lie at `reach` or further.
-class NearLists {
+/// The nearest neighbours of each cluster, nearest first, as many as fit, and the radius within which the
+/// list is complete: all clusters that are not on it lie at that distance or further.
+class NeighbourLists {
 public:
     static constexpr std::size_t capacity = 16;
 
@@ -34,43 +34,45 @@ public:
     }
 
     /// Empty lists that keep what is nearer than `limit`.
-    NearLists(std::size_t clusters, float limit)
-        : entries_(clusters * capacity), counts_(clusters, 0), reach_(clusters, limit), limit_(limit) {}
+    NeighbourLists(std::size_t clusters, float limit)
+        : entries_(clusters * capacity), counts_(clusters, 0), sq_radius_(clusters, limit), limit_(limit) {}
 
-    [[nodiscard]] std::span<const Near> of(std::uint32_t i) const {
+    [[nodiscard]] std::span<const Neighbour> of(std::uint32_t i) const {
         return {entries_.data() + i * capacity, counts_[i]};
     }
-    [[nodiscard]] float reach(std::uint32_t i) const { return reach_[i]; }
-    [[nodiscard]] bool complete(std::uint32_t i) const { return reach_[i] >= limit_; }
+    [[nodiscard]] float sq_radius(std::uint32_t i) const { return sq_radius_[i]; }
+    [[nodiscard]] bool complete(std::uint32_t i) const { return sq_radius_[i] >= limit_; }
 
-    /// Whether the first of the list is the nearest of all clusters for sure.
-    [[nodiscard]] bool sure(std::uint32_t i) const {
-        return complete(i) || (counts_[i] > 0 && of(i).front().sq_distance < reach_[i]);
+    /// Whether the first of the list is known to be the nearest of all clusters.
+    [[nodiscard]] bool is_exact(std::uint32_t i) const {
+        return complete(i) || (counts_[i] > 0 && of(i).front().sq_distance < sq_radius_[i]);
     }
 
-    void clear(std::uint32_t i, float reach) { counts_[i] = 0, reach_[i] = std::min(reach, limit_); }
+    void clear(std::uint32_t i, float sq_radius) {
+        counts_[i] = 0, sq_radius_[i] = std::min(sq_radius, limit_);
+    }
 
-    /// Puts a cluster on the list of i where it is near enough; one that finds no place shortens the reach.
-    void insert(std::uint32_t i, const Near& near) {
-        if (!(near.sq_distance <= reach_[i] && near.sq_distance < limit_)) return;
-        Near* const first = entries_.data() + i * capacity;
+    /// Puts a cluster on the list of i where it is near enough; one that finds no place shortens the radius.
+    void insert(std::uint32_t i, const Neighbour& other) {
+        if (!(other.sq_distance <= sq_radius_[i] && other.sq_distance < limit_)) return;
+        Neighbour* const first = entries_.data() + i * capacity;
         std::size_t at = counts_[i];
         if (at == capacity) {
-            const bool fits = before(i, near, first[capacity - 1]);
-            reach_[i] = fits ? first[capacity - 1].sq_distance : near.sq_distance;
+            const bool fits = before(i, other, first[capacity - 1]);
+            sq_radius_[i] = fits ? first[capacity - 1].sq_distance : other.sq_distance;
             if (!fits) return;
             --at;
         } else {
             ++counts_[i];
         }
-        for (; at > 0 && before(i, near, first[at - 1]); --at) first[at] = first[at - 1];
-        first[at] = near;
+        for (; at > 0 && before(i, other, first[at - 1]); --at) first[at] = first[at - 1];
+        first[at] = other;
     }
 
 private:
     /// An order of all pairs, so that some pair is always reciprocal; among equal distances a random one, so
     /// that many are.
-    [[nodiscard]] static bool before(std::uint32_t i, const Near& a, const Near& b) {
+    [[nodiscard]] static bool before(std::uint32_t i, const Neighbour& a, const Neighbour& b) {
         if (a.sq_distance != b.sq_distance) return a.sq_distance < b.sq_distance;
         const std::uint64_t key_a = pair_key(i, a.cluster), key_b = pair_key(i, b.cluster);
         return key_a != key_b ? key_a < key_b : a.cluster < b.cluster;
@@ -82,9 +84,9 @@ private:
         return key ^ (key >> 32);
     }
 
-    std::vector<Near> entries_;
+    std::vector<Neighbour> entries_;
     std::vector<std::uint8_t> counts_;
-    std::vector<float> reach_;
+    std::vector<float> sq_radius_;
     float limit_;
 };
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "ism/cluster/cluster_moments.hpp"
-#include "ism/cluster/sieve.hpp"
-#include "ism/cluster/sieve_heads.hpp"
+#include "ism/cluster/projected_means.hpp"
+#include "ism/cluster/pruning.hpp"
 #include "ism/core/aligned.hpp"
 #include "ism/core/processor.hpp"
 #include "ism/core/thread_pool.hpp"
@@ -21,15 +21,15 @@ namespace ism::detail {
 /// distance of its points to the mean; the mean over all pairs |x − y|² = spread(X) + spread(Y) +
 /// |mean(X) − mean(Y)|², which unlike a form with dot products loses no digits. A merged cluster takes the
 /// place of one of the two.
-class LiveClusters {
+class ActiveClusters {
 public:
-    LiveClusters(const ClusterMoments& start, ThreadPool& pool, InstructionSet isa = best_instruction_set())
+    ActiveClusters(const ClusterMoments& start, ThreadPool& pool, InstructionSet isa = best_instruction_set())
         : stride_((start.dimension + 7) / 8 * 8),
           means_(start.size() * stride_, 0.0f),
           spread_(start.size(), 0.0),
           size_(start.size(), 1),
-          heads_(start, pool),
-          kernel_(isa) {
+          projected_(start, pool),
+          kernels_(isa) {
         if (!start.sizes.empty()) size_.assign(start.sizes.begin(), start.sizes.end());
         for (std::size_t i = 0; i < start.size(); ++i) {
             const auto from = start.means.subspan(i * start.dimension, start.dimension);
@@ -44,21 +44,21 @@ public:
 
     [[nodiscard]] std::size_t size() const { return size_.size(); }
     [[nodiscard]] std::uint32_t points_of(std::size_t i) const { return size_[i]; }
-    [[nodiscard]] const SieveKernel& kernel() const { return kernel_; }
-    [[nodiscard]] const float* head(std::size_t i) const { return heads_.of(i); }
-    [[nodiscard]] float half_square(std::size_t i) const { return heads_.half_square(i, spread_[i]); }
-    [[nodiscard]] std::vector<std::uint32_t> spatial_order() const { return heads_.spatial_order(); }
+    [[nodiscard]] const DistanceKernels& kernels() const { return kernels_; }
+    [[nodiscard]] const float* projected(std::size_t i) const { return projected_.of(i); }
+    [[nodiscard]] float half_sq_norm(std::size_t i) const { return projected_.half_sq_norm(i, spread_[i]); }
+    [[nodiscard]] std::vector<std::uint32_t> spatial_order() const { return projected_.spatial_order(); }
 
     /// The mean squared distance between the points of two clusters; the same for (i, j) and (j, i), and the
     /// same bits for every instruction set.
     [[nodiscard]] float sq_distance(std::size_t i, std::size_t j) const {
-        return kernel_.sq_difference(mean(i), mean(j), stride_) + float(spread_[i] + spread_[j]);
+        return kernels_.sq_difference(mean(i), mean(j), stride_) + float(spread_[i] + spread_[j]);
     }
 
     /// At most sq_distance(), and hardly less; faster.
     [[nodiscard]] float sq_distance_bound(std::size_t i, std::size_t j) const {
         const float rough =
-            kernel_.rough_sq_difference(mean(i), mean(j), stride_) + float(spread_[i] + spread_[j]);
+            kernels_.rough_sq_difference(mean(i), mean(j), stride_) + float(spread_[i] + spread_[j]);
         return rough * (1 - rough_error(stride_)) - float(stride_) * 0x1p-126f;
     }
 
@@ -90,7 +90,7 @@ public:
         const double distance = spread_[kept] + spread_[gone] + between;
         spread_[kept] += share * (spread_[gone] - spread_[kept] + (1 - share) * between);
         size_[kept] += size_[gone];
-        heads_.merge(kept, gone, share, between);
+        projected_.merge(kept, gone, share, between);
         return distance;
     }
 
@@ -102,8 +102,8 @@ private:
     AlignedVector<float> means_;
     std::vector<double> spread_;
     std::vector<std::uint32_t> size_;
-    SieveHeads heads_;
-    SieveKernel kernel_;
+    ProjectedMeans projected_;
+    DistanceKernels kernels_;
 };
 
 }  // namespace ism::detail

@@ -18,10 +18,10 @@
 
 namespace ism {
 
-/// @brief Where mean shift starts: bins of about the window's size, one set of them for each step of scale,
+/// @brief The seeds of mean shift: bins of about the window's size, one set of them for each step of scale,
 /// as windows grow with it. Keeps its memory for the next votes.
 template <std::size_t Dimension>
-class StartBins {
+class SeedBins {
 public:
     /// @brief The means of the heaviest bins, heaviest first; their score is the bin's weight.
     /// @param votes  of one label, such as check() takes
@@ -99,22 +99,22 @@ private:
                               return bins_[a].score > bins_[b].score ||
                                      (bins_[a].score == bins_[b].score && a < b);
                           });
-        starts_.clear();
+        seeds_.clear();
         for (std::size_t i = 0; i < count; ++i) {
             Mode<Dimension> bin = bins_[order_[i]];
             if (!(bin.score > 0) || bin.score < min_relative_weight * bins_[order_[0]].score) break;
             for (double& value : bin.at) value /= bin.score;
             bin.scale /= bin.score;
-            starts_.push_back(bin);
+            seeds_.push_back(bin);
         }
-        return starts_;
+        return seeds_;
     }
 
     std::uint32_t lowest_ = 0;
     std::vector<std::array<double, Dimension>> per_window_;
     std::vector<std::uint32_t> bin_at_, order_;
     std::vector<std::uint64_t> keys_;
-    std::vector<Mode<Dimension>> bins_, starts_;
+    std::vector<Mode<Dimension>> bins_, seeds_;
 };
 
 }  // namespace ism

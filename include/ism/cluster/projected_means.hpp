@@ -14,23 +14,24 @@
 
 #include "ism/cluster/cluster_moments.hpp"
 #include "ism/cluster/principal_directions.hpp"
-#include "ism/cluster/sieve.hpp"
+#include "ism/cluster/pruning.hpp"
 #include "ism/cluster/spatial_order.hpp"
 #include "ism/core/aligned.hpp"
 #include "ism/core/thread_pool.hpp"
 
 namespace ism::detail {
 
-/// What the sieve sees of clusters: the coordinates of their means, from the middle of all on, along a few
-/// directions of large spread, and the length across these. A dot product is at most that of the coordinates
-/// and of the lengths across (Cauchy–Schwarz), so that half of a squared distance is at least
-/// half_square + half_square − dot of the heads. Where the points have few numbers these are the head.
-class SieveHeads {
+/// Projections of clusters that bounds of distances are taken from: the coordinates of their means, from the
+/// middle of all on, along a few directions of large spread, and the length across these. A dot product is at
+/// most that of the coordinates and of the lengths across (Cauchy–Schwarz), so that half of a squared
+/// distance is at least half_sq_norm + half_sq_norm − dot of the projections. Points of few dimensions are
+/// taken as they are.
+class ProjectedMeans {
 public:
-    SieveHeads(const ClusterMoments& start, ThreadPool& pool)
-        : numbers_(start.size() * sieve_depth, 0.0f),
+    ProjectedMeans(const ClusterMoments& start, ThreadPool& pool)
+        : numbers_(start.size() * projected_dimension, 0.0f),
           sq_length_(start.size()),
-          whole_(start.dimension <= sieve_depth) {
+          whole_(start.dimension <= projected_dimension) {
         using Eigen::Index;
         const std::size_t count = start.size(), dimension = start.dimension;
         std::vector<double> sum(dimension, 0.0);
@@ -46,7 +47,7 @@ public:
                                        &start.means[s * count / sample * dimension], Index(dimension)) -
                                    middle;
         const Eigen::MatrixXf directions =
-            whole_ ? Eigen::MatrixXf() : principal_directions(points, Index(sieve_depth) - 1);
+            whole_ ? Eigen::MatrixXf() : principal_directions(points, Index(projected_dimension) - 1);
 
         constexpr std::size_t block = 256;
         pool.for_each((count + block - 1) / block, [&](std::size_t part, unsigned /*worker*/) {
@@ -55,12 +56,12 @@ public:
                                                                               Index(dimension), Index(width))
                                                 .colwise() -
                                             middle;
-            Eigen::Map<Eigen::MatrixXf> heads(numbers_.data() + first * sieve_depth, Index(sieve_depth),
-                                              Index(width));
+            Eigen::Map<Eigen::MatrixXf> projected(numbers_.data() + first * projected_dimension,
+                                                  Index(projected_dimension), Index(width));
             if (whole_)
-                heads.topRows(Index(dimension)) = centred;
+                projected.topRows(Index(dimension)) = centred;
             else
-                heads.topRows(directions.cols()).noalias() = directions.transpose() * centred;
+                projected.topRows(directions.cols()).noalias() = directions.transpose() * centred;
             for (std::size_t i = 0; i < width; ++i) {
                 sq_length_[first + i] = centred.col(Index(i)).cast<double>().squaredNorm();
                 measure_across(first + i);
@@ -68,11 +69,11 @@ public:
         });
     }
 
-    [[nodiscard]] const float* of(std::size_t i) const { return numbers_.data() + i * sieve_depth; }
+    [[nodiscard]] const float* of(std::size_t i) const { return numbers_.data() + i * projected_dimension; }
 
     /// Half of the mean squared length of a cluster with that spread; less by more than rounding may do, also
     /// where squares are too small for a float.
-    [[nodiscard]] float half_square(std::size_t i, double spread) const {
+    [[nodiscard]] float half_sq_norm(std::size_t i, double spread) const {
         return float(0.5 * (1 - 1e-5) * (sq_length_[i] + spread) - 0x1p-118);
     }
 
@@ -80,15 +81,15 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> spatial_order() const {
         std::vector<std::uint32_t> order(sq_length_.size());
         std::iota(order.begin(), order.end(), 0u);
-        order_spatially(numbers_, sieve_depth, sieve_rows * sieve_columns, order);
+        order_spatially(numbers_, projected_dimension, tile_rows * tile_columns, order);
         return order;
     }
 
     /// Puts cluster `gone`, of that share of the points of both, into cluster `kept`.
     /// @param between  squared distance of the means
     void merge(std::size_t kept, std::size_t gone, double share, double between) {
-        float* to = numbers_.data() + kept * sieve_depth;
-        for (std::size_t k = 0; k < sieve_depth; ++k)
+        float* to = numbers_.data() + kept * projected_dimension;
+        for (std::size_t k = 0; k < projected_dimension; ++k)
             to[k] = float((1 - share) * to[k] + share * of(gone)[k]);
         sq_length_[kept] = std::max(
             0.0, (1 - share) * sq_length_[kept] + share * sq_length_[gone] - share * (1 - share) * between);
@@ -99,16 +100,16 @@ private:
     /// The length across the directions, longer by more than rounding may do.
     void measure_across(std::size_t i) {
         if (whole_) return;
-        float* numbers = numbers_.data() + i * sieve_depth;
+        float* numbers = numbers_.data() + i * projected_dimension;
         double along = 0;
-        for (std::size_t k = 0; k + 1 < sieve_depth; ++k) along += double(numbers[k]) * numbers[k];
-        numbers[sieve_depth - 1] =
+        for (std::size_t k = 0; k + 1 < projected_dimension; ++k) along += double(numbers[k]) * numbers[k];
+        numbers[projected_dimension - 1] =
             float(std::sqrt(std::max(0.0, sq_length_[i] - along) + 4e-6 * sq_length_[i]));
     }
 
     AlignedVector<float> numbers_;
     std::vector<double> sq_length_;  // from the middle of all
-    bool whole_;                     // the sieve sees all numbers
+    bool whole_;                     // projections are the means themselves
 };
 
 }  // namespace ism::detail
