@@ -26,16 +26,23 @@ says "mean " figures.txt
 says "classes      car, mug" more.txt
 says "objects      18" more.txt
 
-# A model that did not keep its descriptors is smaller and can learn more too.
+# Learning all at once gives the same words and objects, whichever way.
+"$ism" train --data toys/train.json -o at-once --class car --class mug --class robot --class duck --detector dog >at-once.txt
+says "objects      24" at-once.txt
+[[ $(grep words add.txt) == "$(grep words at-once.txt)" ]] || fail "other words: $(cat add.txt at-once.txt)"
+
+# A model without training features is smaller, and says what it lacks.
 "$ism" train --data toys/train.json -o small --class car --class mug --detector dog >/dev/null
 (($(wc -c <small) < $(wc -c <two))) || fail "--growable keeps nothing"
-"$ism" train --data toys/train.json -o small-more --add-to small --class duck >small.txt
-says "classes      car, mug, duck" small.txt
+refused_in_a_line "train with --growable" "$ism" train --data toys/train.json -o out --add-to small --class duck
+
+# Words of each class stay so.
+"$ism" train --data toys/train.json -o own --codebook per-class --class car --class mug --growable >own.txt
+"$ism" train --data toys/train.json -o own-more --add-to own --class duck >own-more.txt
+says "classes      car, mug, duck" own-more.txt
 
 # What contradicts the model.
 refused_in_a_line "--detector excludes --add-to" "$ism" train --data toys/train.json -o out --add-to two --detector dog
 refused_in_a_line "--max-words excludes --add-to" "$ism" train --data toys/train.json -o out --add-to two --max-words 9
 refused_in_a_line "another file than an input" "$ism" train --data toys/train.json -o two --add-to two
 refused_in_a_line "none-there" "$ism" train --data toys/train.json -o out --add-to none-there
-"$ism" train --data toys/train.json -o own --codebook per-class --class car --class mug >/dev/null
-refused_in_a_line "its codebook: expected a joint one" "$ism" train --data toys/train.json -o out --add-to own --class duck

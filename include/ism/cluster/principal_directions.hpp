@@ -2,46 +2,86 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
-
-#include <Eigen/Core>
+#include <span>
+#include <vector>
 
 #include "ism/config.hpp"
 #include "ism/core/random.hpp"
 
 namespace ism::detail {
 
-/// Makes the columns orthonormal, one after another (Gram–Schmidt, twice against rounding). A column that
-/// depends on those before becomes 0, which keeps every use as a projection right.
-inline void orthonormalise(Eigen::MatrixXd& columns) {
-    for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-        const double length = columns.col(i).norm();
-        for (int pass = 0; pass < 2; ++pass)
-            for (Eigen::Index j = 0; j < i; ++j)
-                columns.col(i) -= columns.col(j).dot(columns.col(i)) * columns.col(j);
-        const double left = columns.col(i).norm();
-        if (left > 1e-6 * length)
-            columns.col(i) /= left;
-        else
-            columns.col(i).setZero();
-    }
-}
+/// Orthonormal directions: number k of direction c at k · count + c, so that a point is projected on all of
+/// them at once.
+class PrincipalAxes {
+public:
+    PrincipalAxes(std::size_t dimension, std::size_t count)
+        : dimension_(dimension), count_(count), numbers_(dimension * count) {}
 
-/// `count` orthonormal directions, one a column, near those along which the points (columns, centred) spread
-/// most: orthogonal iteration from a random start. How near does not matter to bounds that hold for any
-/// directions.
-[[nodiscard]] inline Eigen::MatrixXf principal_directions(const Eigen::MatrixXf& points, Eigen::Index count) {
-    Random random(1);
-    Eigen::MatrixXd directions(points.rows(), count);
-    for (Eigen::Index c = 0; c < directions.cols(); ++c)
-        for (Eigen::Index r = 0; r < directions.rows(); ++r) directions(r, c) = random.normal();
-    orthonormalise(directions);
-    for (int round = 0; round < 3; ++round) {
-        const Eigen::MatrixXf along = points.transpose() * directions.cast<float>();
-        directions = (points * along).cast<double>();
-        orthonormalise(directions);
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] double& operator()(std::size_t k, std::size_t c) { return numbers_[k * count_ + c]; }
+
+    /// The coordinates of a point along the directions.
+    void project(const float* point, std::span<double> along) const {
+        std::fill(along.begin(), along.end(), 0.0);
+        for (std::size_t k = 0; k < dimension_; ++k) add(point[k], &numbers_[k * count_], along);
     }
-    return directions.cast<float>();
+
+    /// along += factor · row
+    static void add(double factor, const double* row, std::span<double> along) {
+        for (std::size_t c = 0; c < along.size(); ++c) along[c] += factor * row[c];
+    }
+
+    /// Makes them orthonormal, one after another (Gram–Schmidt, twice against rounding). A direction that
+    /// depends on those before becomes 0, which keeps every use as a projection right.
+    void orthonormalise() {
+        for (std::size_t i = 0; i < count_; ++i) {
+            const double length = std::sqrt(dot(i, i));
+            for (int pass = 0; pass < 2; ++pass)
+                for (std::size_t j = 0; j < i; ++j) {
+                    const double along = dot(i, j);
+                    for (std::size_t k = 0; k < dimension_; ++k) (*this)(k, i) -= along * (*this)(k, j);
+                }
+            const double left = std::sqrt(dot(i, i));
+            const double factor = left > 1e-6 * length ? 1 / left : 0;
+            for (std::size_t k = 0; k < dimension_; ++k) (*this)(k, i) *= factor;
+        }
+    }
+
+private:
+    [[nodiscard]] double dot(std::size_t i, std::size_t j) {
+        double sum = 0;
+        for (std::size_t k = 0; k < dimension_; ++k) sum += (*this)(k, i) * (*this)(k, j);
+        return sum;
+    }
+
+    std::size_t dimension_, count_;
+    std::vector<double> numbers_;
+};
+
+/// `count` directions near those along which the points (one after another, centred) spread most: orthogonal
+/// iteration from a random start. How near does not matter to bounds that hold for any directions.
+[[nodiscard]] inline PrincipalAxes principal_directions(std::span<const float> points, std::size_t dimension,
+                                                        std::size_t count) {
+    Random random(1);
+    PrincipalAxes directions(dimension, count);
+    for (std::size_t c = 0; c < count; ++c)
+        for (std::size_t k = 0; k < dimension; ++k) directions(k, c) = random.normal();
+    directions.orthonormalise();
+    std::vector<double> along(count);
+    for (int round = 0; round < 3; ++round) {
+        PrincipalAxes next(dimension, count);
+        for (std::size_t first = 0; first < points.size(); first += dimension) {
+            directions.project(&points[first], along);
+            for (std::size_t k = 0; k < dimension; ++k)
+                PrincipalAxes::add(points[first + k], along.data(), {&next(k, 0), count});
+        }
+        directions = next;
+        directions.orthonormalise();
+    }
+    return directions;
 }
 
 }  // namespace ism::detail

@@ -10,8 +10,6 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "ism/cluster/cluster_moments.hpp"
 #include "ism/cluster/principal_directions.hpp"
 #include "ism/cluster/pruning.hpp"
@@ -32,39 +30,36 @@ public:
         : numbers_(start.size() * projected_dimension, 0.0f),
           sq_length_(start.size()),
           whole_(start.dimension <= projected_dimension) {
-        using Eigen::Index;
         const std::size_t count = start.size(), dimension = start.dimension;
-        std::vector<double> sum(dimension, 0.0);
+        std::vector<double> middle(dimension, 0.0);
         for (std::size_t i = 0; i < count; ++i)
-            for (std::size_t k = 0; k < dimension; ++k) sum[k] += start.means[i * dimension + k];
-        const Eigen::VectorXf middle =
-            (Eigen::Map<Eigen::VectorXd>(sum.data(), Index(dimension)) / double(count)).cast<float>();
+            for (std::size_t k = 0; k < dimension; ++k)
+                middle[k] += double(start.means[i * dimension + k]) / double(count);
+        const auto centre = [&](std::size_t i, float* centred) {
+            for (std::size_t k = 0; k < dimension; ++k)
+                centred[k] = start.means[i * dimension + k] - float(middle[k]);
+        };
 
         const std::size_t sample = whole_ ? 0 : std::min<std::size_t>(count, 512);
-        Eigen::MatrixXf points(dimension, sample);
-        for (std::size_t s = 0; s < sample; ++s)
-            points.col(Index(s)) = Eigen::Map<const Eigen::VectorXf>(
-                                       &start.means[s * count / sample * dimension], Index(dimension)) -
-                                   middle;
-        const Eigen::MatrixXf directions =
-            whole_ ? Eigen::MatrixXf() : principal_directions(points, Index(projected_dimension) - 1);
+        std::vector<float> points(sample * dimension);
+        for (std::size_t s = 0; s < sample; ++s) centre(s * count / sample, &points[s * dimension]);
+        const PrincipalAxes directions =
+            principal_directions(points, dimension, whole_ ? 0 : projected_dimension - 1);
 
         constexpr std::size_t block = 256;
         pool.for_each((count + block - 1) / block, [&](std::size_t part, unsigned /*worker*/) {
-            const std::size_t first = part * block, width = std::min(block, count - first);
-            const Eigen::MatrixXf centred = Eigen::Map<const Eigen::MatrixXf>(&start.means[first * dimension],
-                                                                              Index(dimension), Index(width))
-                                                .colwise() -
-                                            middle;
-            Eigen::Map<Eigen::MatrixXf> projected(numbers_.data() + first * projected_dimension,
-                                                  Index(projected_dimension), Index(width));
-            if (whole_)
-                projected.topRows(Index(dimension)) = centred;
-            else
-                projected.topRows(directions.cols()).noalias() = directions.transpose() * centred;
-            for (std::size_t i = 0; i < width; ++i) {
-                sq_length_[first + i] = centred.col(Index(i)).cast<double>().squaredNorm();
-                measure_across(first + i);
+            std::vector<float> centred(dimension);
+            std::vector<double> along(directions.count());
+            for (std::size_t i = part * block; i < std::min(count, (part + 1) * block); ++i) {
+                centre(i, centred.data());
+                float* projected = numbers_.data() + i * projected_dimension;
+                directions.project(centred.data(), along);
+                for (std::size_t c = 0; c < along.size(); ++c) projected[c] = float(along[c]);
+                if (whole_) std::copy(centred.begin(), centred.end(), projected);
+                double square = 0;
+                for (const float value : centred) square += double(value) * value;
+                sq_length_[i] = square;
+                measure_across(i);
             }
         });
     }

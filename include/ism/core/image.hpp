@@ -135,19 +135,13 @@ using DepthMap = Image<float>;          ///< metres along the optical axis; 0 or
 using Mask = Image<std::uint8_t>;       ///< 0 = ground, anything else = figure
 
 /// @brief "640x480", for messages.
-struct SizeText {
-    int width = 0, height = 0;
-    void append_to(std::string& text) const { text += join_text(width, "x", height); }
-};
-
-/// @brief The size of an image, for messages.
 template <class I>
 requires requires(const I& image) {
     image.width();
     image.height();
 }
-[[nodiscard]] SizeText size_text(const I& image) {
-    return {image.width(), image.height()};
+[[nodiscard]] LazyText<3> size_text(const I& image) {
+    return lazy_text(image.width(), "x", image.height());
 }
 
 /// @brief Brightness of a colour image (ITU-R BT.601 weights), 0 … 1.

@@ -4,106 +4,115 @@
 
 #include <array>
 #include <charconv>
-#include <concepts>
 #include <cstddef>
-#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "ism/config.hpp"
 
-/// Values as text: the same in every locale, so that a file is valid wherever it was written.
+/// Values as text: the same in every locale, so that a file is valid wherever it was written. Plain functions
+/// of few types, since every header that checks anything includes this.
 namespace ism {
 
-/// @brief A type that appends itself to a text.
-template <class T>
-concept AppendsText = requires(const T& value, std::string& text) {
-    { value.append_to(text) } -> std::same_as<void>;
-};
+template <std::size_t Count>
+struct LazyText;
 
-/// @brief Refers to a value that may become a part of a text: a string, a number (with six digits that count)
-/// or what AppendsText. It costs nothing as long as nobody asks for the text, and lives as long as the value.
+/// @brief A part of a text that may be asked for: a string, a number (with six digits that count), or several
+/// parts. Making it costs nothing beyond a copy of the number; strings and lists are referred to.
 class TextPart {
 public:
-    TextPart(const char* text) : value_(text), append_(append_chars) {}
-    TextPart(const std::string& text) : value_(&text), append_(append_strings<std::string>) {}
-    TextPart(const std::string_view& text) : value_(&text), append_(append_strings<std::string_view>) {}
-    TextPart(const char& one) : value_(&one), append_(append_char) {}
-    template <class T>
-    requires std::integral<T> || std::floating_point<T> TextPart(const T& number)
-        : value_(&number), append_(append_number<T>) {}
-    template <AppendsText T>
-    TextPart(const T& value) : value_(&value), append_(append_other<T>) {}
+    TextPart(const char* text) : kind_(Kind::text), text_(text) {}
+    TextPart(const std::string& text) : kind_(Kind::text), text_(text) {}
+    TextPart(std::string_view text) : kind_(Kind::text), text_(text) {}
+    TextPart(char one) : kind_(Kind::one), signed_(one) {}
+    TextPart(bool value) : kind_(Kind::signed_number), signed_(value) {}
+    TextPart(int value) : kind_(Kind::signed_number), signed_(value) {}
+    TextPart(long value) : kind_(Kind::signed_number), signed_(value) {}
+    TextPart(long long value) : kind_(Kind::signed_number), signed_(value) {}
+    TextPart(unsigned value) : kind_(Kind::unsigned_number), unsigned_(value) {}
+    TextPart(unsigned long value) : kind_(Kind::unsigned_number), unsigned_(value) {}
+    TextPart(unsigned long long value) : kind_(Kind::unsigned_number), unsigned_(value) {}
+    TextPart(float value) : kind_(Kind::real), real_(double(value)) {}
+    TextPart(double value) : kind_(Kind::real), real_(value) {}
+    template <std::size_t Count>
+    TextPart(const LazyText<Count>& parts) : kind_(Kind::list), list_(parts.parts) {}
 
-    void append_to(std::string& text) const { append_(text, value_); }
+    void append_to(std::string& text) const {
+        std::array<char, 32> digits;
+        const auto append = [&](std::to_chars_result end) { text.append(digits.data(), end.ptr); };
+        char* const last = digits.data() + digits.size();
+        switch (kind_) {
+            case Kind::text:
+                text += text_;
+                break;
+            case Kind::one:
+                text += char(signed_);
+                break;
+            case Kind::signed_number:
+                append(std::to_chars(digits.data(), last, signed_));
+                break;
+            case Kind::unsigned_number:
+                append(std::to_chars(digits.data(), last, unsigned_));
+                break;
+            case Kind::real:
+                append(std::to_chars(digits.data(), last, real_, std::chars_format::general, 6));
+                break;
+            case Kind::list:
+                for (const TextPart& part : list_) part.append_to(text);
+        }
+    }
 
 private:
-    template <class T>
-    [[nodiscard]] static const T& as(const void* value) {
-        return *static_cast<const T*>(value);
-    }
-    static void append_chars(std::string& text, const void* value) {
-        text += static_cast<const char*>(value);
-    }
-    static void append_char(std::string& text, const void* value) { text += as<char>(value); }
-    template <class T>
-    static void append_strings(std::string& text, const void* value) {
-        text += as<T>(value);
-    }
-    template <class T>
-    static void append_other(std::string& text, const void* value) {
-        as<T>(value).append_to(text);
-    }
-    template <class T>
-    static void append_number(std::string& text, const void* value) {
-        if constexpr (std::floating_point<T>)
-            append_real(text, double(as<T>(value)));
-        else if constexpr (std::unsigned_integral<T>)
-            append_integer(text, std::uint64_t(as<T>(value)));
-        else
-            append_integer(text, std::int64_t(as<T>(value)));
-    }
-    template <class T>
-    static void append_integer(std::string& text, T number) {
-        std::array<char, 24> digits;
-        text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
-    }
-    static void append_real(std::string& text, double number) {
-        std::array<char, 32> digits;
-        text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number,
-                                                 std::chars_format::general, 6)
-                                       .ptr);
-    }
+    enum class Kind : unsigned char { text, one, signed_number, unsigned_number, real, list };
 
-    const void* value_;
-    void (*append_)(std::string&, const void*);
+    Kind kind_;
+    union {
+        std::string_view text_;
+        long long signed_;
+        unsigned long long unsigned_;
+        double real_;
+        std::span<const TextPart> list_;
+    };
 };
 
-/// @brief Its arguments joined into one string.
-template <class... Parts>
-requires(std::convertible_to<const Parts&, TextPart>&&...) [[nodiscard]] std::string
-    join_text(const Parts&... parts) {
-    std::string text;
-    (TextPart(parts).append_to(text), ...);
-    return text;
-}
-
-/// @brief Several values that may become one text: see lazy_text().
+/// @brief Several parts that may become one text.
 template <std::size_t Count>
 struct LazyText {
     std::array<TextPart, Count> parts;
-
-    void append_to(std::string& text) const {
-        for (const TextPart& part : parts) part.append_to(text);
-    }
 };
 
 /// @brief As join_text(), but joined only where it is asked for: for the messages of expect(), which are
-/// rarely needed. It refers to its arguments, so it is not to be kept.
-template <class... Parts>
-requires(std::convertible_to<const Parts&, TextPart>&&...)
-    [[nodiscard]] LazyText<sizeof...(Parts)> lazy_text(const Parts&... parts) {
-    return {{TextPart(parts)...}};
+/// rarely needed. It refers to strings among its arguments, so it is not to be kept.
+[[nodiscard]] inline LazyText<2> lazy_text(TextPart a, TextPart b) {
+    return {{a, b}};
+}
+[[nodiscard]] inline LazyText<3> lazy_text(TextPart a, TextPart b, TextPart c) {
+    return {{a, b, c}};
+}
+[[nodiscard]] inline LazyText<4> lazy_text(TextPart a, TextPart b, TextPart c, TextPart d) {
+    return {{a, b, c, d}};
+}
+[[nodiscard]] inline LazyText<5> lazy_text(TextPart a, TextPart b, TextPart c, TextPart d, TextPart e) {
+    return {{a, b, c, d, e}};
+}
+[[nodiscard]] inline LazyText<7> lazy_text(TextPart a, TextPart b, TextPart c, TextPart d, TextPart e,
+                                           TextPart f, TextPart g = "") {
+    return {{a, b, c, d, e, f, g}};
+}
+[[nodiscard]] inline LazyText<9> lazy_text(TextPart a, TextPart b, TextPart c, TextPart d, TextPart e,
+                                           TextPart f, TextPart g, TextPart h, TextPart i = "") {
+    return {{a, b, c, d, e, f, g, h, i}};
+}
+
+/// @brief Its arguments, up to twelve, joined into one string.
+[[nodiscard]] inline std::string join_text(TextPart a, TextPart b = "", TextPart c = "", TextPart d = "",
+                                           TextPart e = "", TextPart f = "", TextPart g = "", TextPart h = "",
+                                           TextPart i = "", TextPart j = "", TextPart k = "",
+                                           TextPart l = "") {
+    std::string text;
+    for (const TextPart* part : {&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l}) part->append_to(text);
+    return text;
 }
 
 }  // namespace ism

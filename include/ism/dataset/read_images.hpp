@@ -24,16 +24,16 @@ namespace ism {
 /// @throws FileError, naming the file, where one cannot be read, is of another size than the data set says,
 /// is smaller than 16×16, or has no depth reading at all.
 [[nodiscard]] inline Frame read_frame(const DatasetImage& image) {
-    const auto check_size = [&](const std::filesystem::path& file, const SizeText& size) {
-        if (size.width != image.width || size.height != image.height)
+    const auto check_size = [&](const std::filesystem::path& file, const auto& pixels) {
+        if (pixels.width() != image.width || pixels.height() != image.height)
             throw FileError(join_text(file_text(file), ": expected ", detail::sides_text(image),
-                                      " pixels as its data set says, got ", size));
+                                      " pixels as its data set says, got ", size_text(pixels)));
     };
     Frame frame{.gray = read_gray(image.file)};
-    check_size(image.file, size_text(frame.gray));
+    check_size(image.file, frame.gray);
     if (!image.depth_file.empty()) {
         const RawDepth raw = read_raw_depth(image.depth_file);
-        check_size(image.depth_file, size_text(raw));
+        check_size(image.depth_file, raw);
         frame.depth_m = to_metres(raw, image.depth_scale);
     }
     frame.camera = image.camera;
