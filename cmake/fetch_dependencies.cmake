@@ -24,7 +24,6 @@ function(ism_fetch package target url include_dir)
     target_include_directories(${target} SYSTEM INTERFACE "${ism_${name}_SOURCE_DIR}/${include_dir}")
 endfunction()
 
-ism_fetch(Eigen3 Eigen3::Eigen https://gitlab.com/libeigen/eigen/-/archive/3.4.0/eigen-3.4.0.tar.gz .)
 ism_fetch(nanoflann nanoflann::nanoflann https://github.com/jlblancoc/nanoflann/archive/v1.5.5.tar.gz include)
 ism_fetch(nlohmann_json nlohmann_json::nlohmann_json https://github.com/nlohmann/json/archive/v3.11.3.tar.gz include)
 

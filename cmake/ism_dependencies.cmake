@@ -16,7 +16,7 @@ function(ism_find_dependencies)
     add_library(ism_dependencies INTERFACE IMPORTED ${global})
     set(missing "")
 
-    foreach(library "Eigen3;Eigen3::Eigen" "nanoflann;nanoflann::nanoflann" "nlohmann_json;nlohmann_json::nlohmann_json")
+    foreach(library "nanoflann;nanoflann::nanoflann" "nlohmann_json;nlohmann_json::nlohmann_json")
         list(GET library 0 package)
         list(GET library 1 target)
         if(NOT TARGET ${target})
@@ -33,7 +33,7 @@ function(ism_find_dependencies)
     endforeach()
 
     # Packages without a CMake file.
-    foreach(library "Eigen3;Eigen/Core;eigen3" "nanoflann;nanoflann.hpp;." "nlohmann_json;nlohmann/json.hpp;." "stb;stb/stb_image.h;.")
+    foreach(library "nanoflann;nanoflann.hpp;." "nlohmann_json;nlohmann/json.hpp;." "stb;stb/stb_image.h;.")
         list(GET library 0 package)
         list(GET library 1 header)
         list(GET library 2 suffix)

@@ -25,6 +25,6 @@ int main() {
     const std::vector<std::string> names{"pattern"};
     const auto model = ism::train<ism::HessianLaplace, ism::RootSift>(names, images);
     const auto found = ism::detect<ism::Jism>(model, images[0].frame);
-    std::printf("%zu words, %zu found\n", model.codebook.size(), found.objects.size());
+    std::printf("%zu words, %zu found\n", model.words(), found.objects.size());
     return here > 0.99f && here == brightness_elsewhere(white) && !found.objects.empty() ? 0 : 1;
 }

@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.22)
 
 # The rules the headers keep: the folders are stations in this order, and a header includes only its own and earlier
-# ones; nanoflann is hidden in one header; Eigen/Core does, Eigen/Dense compiles slowly; nothing prints.
+# ones; nanoflann is hidden in one header; Eigen costs every program 2 s and 280 MB to compile; nothing prints.
 set(stations core feature cluster codebook model vote detect train io model_file dataset show evaluate)
 set(everywhere config.hpp version.hpp)
 set(errors "")
@@ -47,8 +47,8 @@ foreach(header IN LISTS headers)
             list(APPEND errors "${header}: expected \"ism/...\" in quotes, got ${line}")
         elseif(line MATCHES "<nanoflann")
             list(APPEND nanoflann "${header}")
-        elseif(line MATCHES "<Eigen/" AND NOT line MATCHES "<Eigen/Core>")
-            list(APPEND errors "${header}: expected <Eigen/Core>, got ${line}")
+        elseif(line MATCHES "<Eigen/")
+            list(APPEND errors "${header}: expected no Eigen, got ${line}")
         elseif(line MATCHES "<nlohmann/" AND NOT folder MATCHES "^(io|model_file|dataset|evaluate)$")
             list(APPEND errors "${header}: JSON belongs to files, got ${line}")
         elseif(line MATCHES "<(CLI/|opencv2/|pcl/)")
