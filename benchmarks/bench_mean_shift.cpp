@@ -19,9 +19,9 @@ void measure(std::size_t count) {
     const std::span<const ism::Vote<D>> all(votes);
     ism::Bandwidth<D> bandwidth{};
     bandwidth.at_scale_1.fill(0.15);
-    bandwidth.growth.fill(ism::Growth::none);
+    bandwidth.scaling.fill(ism::BandwidthScaling::none);
     bandwidth.at_scale_1[0] = bandwidth.at_scale_1[1] = 40, bandwidth.at_scale_1[2] = 0.4;
-    for (std::size_t k = 0; k < 3; ++k) bandwidth.growth[k] = ism::Growth::with_scale;
+    for (std::size_t k = 0; k < 3; ++k) bandwidth.scaling[k] = ism::BandwidthScaling::with_scale;
     const ism::MeanShiftOptions options;
     ism::MeanShiftMemory<D> memory;
     const auto modes = ism::find_modes<ism::EpanechnikovKernel>(all, bandwidth, options, memory);

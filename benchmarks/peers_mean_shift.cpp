@@ -68,7 +68,7 @@ template <std::size_t D>
     const auto defaults = ism::default_bandwidth<bench::FiveAxes>().at_scale_1;
     ism::Bandwidth<D> bandwidth{};
     std::copy_n(defaults.begin(), D, bandwidth.at_scale_1.begin());
-    bandwidth.growth.fill(ism::Growth::none);
+    bandwidth.scaling.fill(ism::BandwidthScaling::none);
     return bandwidth;
 }
 

@@ -21,7 +21,7 @@ namespace {
 struct CentreDepth {
     static constexpr std::string_view name = "d - d_i", unit = "m";
     static constexpr double bandwidth = 0.1;
-    static constexpr ism::Growth growth = ism::Growth::none;
+    static constexpr ism::BandwidthScaling bandwidth_scaling = ism::BandwidthScaling::none;
     static constexpr bool needs_depth = true;
     static double vote(const ism::VoteSource& v) {
         const float behind_m = v.occurrence.depth_m;  // NaN where it was learnt without depth

@@ -8,7 +8,7 @@
 struct Nothing {
     static constexpr std::string_view name = "nothing", unit = "";
     static constexpr double bandwidth = 1;
-    static constexpr ism::Growth growth = ism::Growth::none;
+    static constexpr ism::BandwidthScaling bandwidth_scaling = ism::BandwidthScaling::none;
     static constexpr bool needs_depth = false;
 };
 

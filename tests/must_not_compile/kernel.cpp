@@ -11,5 +11,5 @@ struct Endless {
 };
 
 const std::vector<ism::Vote<2>> votes;
-const ism::Bandwidth<2> bandwidth{{1, 1}, {ism::Growth::none, ism::Growth::none}};
+const ism::Bandwidth<2> bandwidth{{1, 1}, {ism::BandwidthScaling::none, ism::BandwidthScaling::none}};
 const auto modes = ism::find_modes<Endless>(std::span<const ism::Vote<2>>(votes), bandwidth);

@@ -36,6 +36,7 @@ TEST_CASE("Results that are written come back equal") {
          .category_id = 7,
          .box = {0, 0, 6, 5},
          .score = -1e-30,
+         .probability = 0.625,
          .segmentation = ism::compress_mask(mask),
          .position_m = ism::Point3{0.1, -0.2, 1.3},
          .depth_m = 1.3,
@@ -51,6 +52,8 @@ TEST_CASE("Results that are written come back equal") {
         CHECK(read[i].segmentation == results[i].segmentation);
         CHECK(read[i].position_m == results[i].position_m);
         CHECK(read[i].scale == results[i].scale);
+        CHECK(std::isnan(read[i].probability) == std::isnan(results[i].probability));
+        if (!std::isnan(results[i].probability)) CHECK(read[i].probability == results[i].probability);
     }
     CHECK(std::isnan(read[0].depth_m));
     CHECK(read[1].depth_m == 1.3);
@@ -85,6 +88,8 @@ TEST_CASE("Results that make no sense are refused with the place") {
           ", result 1: bbox: expected a box, or a segmentation to take it from, got neither");
     CHECK(read_error(good + R"(,"depth_m":-1}])") == ", result 1: depth_m: expected metres above 0, got -1");
     CHECK(read_error(good + R"(,"scale":0}])") == ", result 1: scale: expected a number above 0, got 0");
+    CHECK(read_error(good + R"(,"probability":1.5}])") ==
+          ", result 1: probability: expected a number from 0 to 1, got 1.5");
     CHECK(read_error(good + R"(,"position_m":[1,2]}])") ==
           ", result 1: position_m: expected three numbers x, y, z, got an array of 2");
     CHECK(read_error(good + "}]") == "nothing thrown");

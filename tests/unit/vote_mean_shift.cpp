@@ -19,7 +19,7 @@
 
 namespace {
 
-constexpr auto grows = ism::Growth::with_scale, stays = ism::Growth::none;
+constexpr auto grows = ism::BandwidthScaling::with_scale, stays = ism::BandwidthScaling::none;
 
 template <std::size_t D>
 std::vector<ism::Vote<D>> random_votes(std::size_t count, ism::Random& random, std::uint32_t label = 0) {
@@ -38,9 +38,9 @@ template <std::size_t D>
 ism::Bandwidth<D> mixed_bandwidth(double size) {
     ism::Bandwidth<D> bandwidth{};
     bandwidth.at_scale_1.fill(size);
-    bandwidth.growth.fill(stays);
-    bandwidth.growth[0] = grows;
-    if (D > 1) bandwidth.growth[1] = grows;
+    bandwidth.scaling.fill(stays);
+    bandwidth.scaling[0] = grows;
+    if (D > 1) bandwidth.scaling[1] = grows;
     return bandwidth;
 }
 

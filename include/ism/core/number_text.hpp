@@ -23,7 +23,7 @@ namespace ism {
         std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr};
 }
 
-/// @brief A number with so many digits after the point.
+/// @brief A number with `decimals` digits after the point.
 [[nodiscard]] inline std::string fixed_text(double value, int decimals) {
     std::array<char, 400> text;  // the largest number has 309 digits before the point
     return {

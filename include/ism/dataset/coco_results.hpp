@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,10 +24,12 @@ namespace ism {
 
 /// @brief One object found in an image of a data set, as written to and read from files.
 struct Result {
-    std::int64_t image_id = 0;     ///< DatasetImage::id
-    std::int64_t category_id = 0;  ///< of Dataset::category_ids
-    Box box;                       ///< pixels; may reach outside the image
-    double score = 0;              ///< larger is more confident
+    std::int64_t image_id = 0;                                      ///< DatasetImage::id
+    std::int64_t category_id = 0;                                   ///< of Dataset::category_ids
+    Box box;                                                        ///< pixels; may reach outside the image
+    double score = 0;                                               ///< larger is more confident
+    double probability = std::numeric_limits<double>::quiet_NaN();  ///< 0 … 1, comparable between images and
+                                                                    ///< classes; NaN = not known
     std::optional<CompressedRle> segmentation = {};
     std::optional<Point3> position_m = {};  ///< in the camera frame
     double depth_m = no_depth;              ///< along the optical axis, metres; NaN = not known
@@ -60,6 +63,11 @@ namespace detail {
         result.depth_m = to_number(*depth, "depth_m", place);
         if (!is_depth(result.depth_m)) refuse_json(place, "depth_m", "metres above 0", json_text(*depth));
     }
+    if (const Json* probability = optional_member(record, "probability", place)) {
+        result.probability = to_number(*probability, "probability", place);
+        if (!(result.probability >= 0 && result.probability <= 1))
+            refuse_json(place, "probability", "a number from 0 to 1", json_text(*probability));
+    }
     if (const Json* scale = optional_member(record, "scale", place)) {
         result.scale = to_number(*scale, "scale", place);
         if (!(result.scale > 0)) refuse_json(place, "scale", "a number above 0", json_text(*scale));
@@ -74,6 +82,7 @@ namespace detail {
                    {"score", result.score},
                    {"scale", result.scale}};
     record["depth_m"] = std::isnan(result.depth_m) ? Json(nullptr) : Json(result.depth_m);
+    if (!std::isnan(result.probability)) record["probability"] = result.probability;
     if (result.segmentation) record["segmentation"] = rle_to_json(*result.segmentation);
     if (result.position_m)
         record["position_m"] = {result.position_m->x, result.position_m->y, result.position_m->z};
@@ -83,7 +92,7 @@ namespace detail {
 }  // namespace detail
 
 /// @brief Writes results as COCO's array, one record a line: image_id, category_id, bbox, score, segmentation
-/// {size, counts}; beside these scale, depth_m (null = not known) and position_m [x, y, z].
+/// {size, counts}; beside these probability, scale, depth_m (null = not known) and position_m [x, y, z].
 /// @throws FileError where the file cannot be written, or read_results() would refuse it; nothing is written
 /// then.
 inline void write_results(const std::filesystem::path& path, std::span<const Result> results) {

@@ -30,6 +30,7 @@ namespace ism {
              .category_id = category_ids[found.class_index],
              .box = found.box,
              .score = found.score,
+             .probability = found.probability,
              .segmentation = compress_mask(whole_mask(found.segmentation, image.width, image.height)),
              .position_m = found.position_m,
              .depth_m = found.depth_m,

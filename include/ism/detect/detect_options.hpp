@@ -18,7 +18,7 @@ enum class MatchMode {
 /// @brief How objects are searched for in an image, whatever the vote space.
 struct DetectOptions {
     double min_relative_score = 0.05;  ///< T_ratio: weaker than this part of the strongest is dropped
-    std::size_t max_candidates = 200;  ///< at most so many of the strongest hypotheses are rescored
+    std::size_t max_candidates = 200;  ///< at most this many, the strongest, are rescored
     std::size_t max_hypotheses = 40;   ///< the best of these after rescoring are segmented and verified
     double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
     double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object

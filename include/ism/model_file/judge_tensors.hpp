@@ -28,7 +28,7 @@ inline void box_classifier_to_tensors(const BoxClassifier& classifier, TensorFil
     file.tensors["box_classifier_bias"] = make_tensor<float>(classifier.bias, {classifier.bias.size()});
 }
 
-/// Reads what box_classifier_to_tensors() wrote, for so many words and classes; it may be empty.
+/// Reads what box_classifier_to_tensors() wrote, for this number of words and classes; it may be empty.
 [[nodiscard]] inline BoxClassifier box_classifier_from_tensors(const TensorFile& file, std::size_t words,
                                                                std::size_t classes) {
     const auto bias = values<float>(file, "box_classifier_bias", {any_length});

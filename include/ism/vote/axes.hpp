@@ -11,7 +11,7 @@
 namespace ism {
 
 /// @brief How the mean shift window along an axis changes with the scale of the object it stands on.
-enum class Growth {
+enum class BandwidthScaling {
     none,        ///< one bandwidth for all
     with_scale,  ///< the bandwidth is that at scale 1, times the scale (the balloon kernel of Leibe et al.
                  ///< 2008)
@@ -24,7 +24,7 @@ concept ContinuousAxis = requires(const VoteSource& source) {
     { A::name } -> std::convertible_to<std::string_view>;
     { A::unit } -> std::convertible_to<std::string_view>;
     { A::bandwidth } -> std::convertible_to<double>;
-    { A::growth } -> std::convertible_to<Growth>;
+    { A::bandwidth_scaling } -> std::convertible_to<BandwidthScaling>;
     { A::needs_depth } -> std::convertible_to<bool>;
     { A::vote(source) } -> std::convertible_to<double>;
 };
@@ -44,7 +44,7 @@ concept Axis = ContinuousAxis<A> || DiscreteAxis<A>;
 struct X {
     static constexpr std::string_view name = "x", unit = "px";
     static constexpr double bandwidth = 40;
-    static constexpr Growth growth = Growth::with_scale;
+    static constexpr BandwidthScaling bandwidth_scaling = BandwidthScaling::with_scale;
     static constexpr bool needs_depth = false;
     [[nodiscard]] static double vote(const VoteSource& v) { return v.placement.centre.x; }
 };
@@ -53,7 +53,7 @@ struct X {
 struct Y {
     static constexpr std::string_view name = "y", unit = "px";
     static constexpr double bandwidth = 40;
-    static constexpr Growth growth = Growth::with_scale;
+    static constexpr BandwidthScaling bandwidth_scaling = BandwidthScaling::with_scale;
     static constexpr bool needs_depth = false;
     [[nodiscard]] static double vote(const VoteSource& v) { return v.placement.centre.y; }
 };
@@ -62,7 +62,7 @@ struct Y {
 struct Scale {
     static constexpr std::string_view name = "s", unit = "";
     static constexpr double bandwidth = 0.4;
-    static constexpr Growth growth = Growth::with_scale;
+    static constexpr BandwidthScaling bandwidth_scaling = BandwidthScaling::with_scale;
     static constexpr bool needs_depth = false;
     [[nodiscard]] static double vote(const VoteSource& v) { return v.placement.scale; }
 };
@@ -71,7 +71,7 @@ struct Scale {
 struct Depth {
     static constexpr std::string_view name = "d", unit = "m";
     static constexpr double bandwidth = 0.15;
-    static constexpr Growth growth = Growth::none;
+    static constexpr BandwidthScaling bandwidth_scaling = BandwidthScaling::none;
     static constexpr bool needs_depth = true;
     [[nodiscard]] static double vote(const VoteSource& v) { return v.feature.depth_m; }
 };
@@ -81,7 +81,7 @@ struct Depth {
 struct ScaledDepth {
     static constexpr std::string_view name = "s*d", unit = "m";
     static constexpr double bandwidth = 0.15;
-    static constexpr Growth growth = Growth::none;
+    static constexpr BandwidthScaling bandwidth_scaling = BandwidthScaling::none;
     static constexpr bool needs_depth = true;
     [[nodiscard]] static double vote(const VoteSource& v) { return v.feature.depth_m * v.placement.scale; }
 };

@@ -19,13 +19,13 @@ namespace ism {
 template <std::size_t Dimension>
 struct Bandwidth {
     std::array<double, Dimension> at_scale_1;
-    std::array<Growth, Dimension> growth;
+    std::array<BandwidthScaling, Dimension> scaling;
 
     /// @brief The window around an object of a scale.
     [[nodiscard]] std::array<double, Dimension> at(double scale) const {
         std::array<double, Dimension> window;
         for (std::size_t k = 0; k < Dimension; ++k)
-            window[k] = at_scale_1[k] * (growth[k] == Growth::with_scale ? scale : 1);
+            window[k] = at_scale_1[k] * (scaling[k] == BandwidthScaling::with_scale ? scale : 1);
         return window;
     }
 };
@@ -36,7 +36,7 @@ template <VoteSpaceType Space>
     Bandwidth<Space::dimension> bandwidth{};
     for (std::size_t k = 0; k < Space::dimension; ++k) {
         bandwidth.at_scale_1[k] = Space::axes()[k].bandwidth;
-        bandwidth.growth[k] = Space::axes()[k].growth;
+        bandwidth.scaling[k] = Space::axes()[k].bandwidth_scaling;
     }
     return bandwidth;
 }

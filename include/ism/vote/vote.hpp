@@ -33,7 +33,7 @@ template <std::size_t Dimension>
     return usable;
 }
 
-/// @brief Does nothing where mean shift can take `vote`.
+/// @brief Validates `vote` for mean shift.
 /// @throws Error for a coordinate or a weight that is no number or absurd, a weight below 0, a scale that is
 /// not above 0.
 template <std::size_t Dimension>

@@ -18,7 +18,7 @@ namespace ism {
 struct AxisInfo {
     std::string_view name, unit;
     double bandwidth = 0;
-    Growth growth = Growth::none;
+    BandwidthScaling bandwidth_scaling = BandwidthScaling::none;
 };
 
 /// @brief A vote space: a list of axes, of which at most one is discrete. Its dimension, the number of
@@ -49,7 +49,8 @@ public:
         std::array<AxisInfo, dimension> infos;
         std::size_t k = 0;
         auto add = [&]<class A>(std::type_identity<A>) {
-            if constexpr (ContinuousAxis<A>) infos[k++] = {A::name, A::unit, A::bandwidth, A::growth};
+            if constexpr (ContinuousAxis<A>)
+                infos[k++] = {A::name, A::unit, A::bandwidth, A::bandwidth_scaling};
         };
         (add(std::type_identity<Axes>{}), ...);
         return infos;

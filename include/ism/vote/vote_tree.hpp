@@ -40,11 +40,11 @@ public:
     void each_within(const std::array<double, Dimension>& at, const std::array<double, Dimension>& window,
                      double reach, Visit&& visit) const {
         // the ball of the tree that holds the window, whose axes may have grown by different factors
-        double growth = 0;
+        double widening = 0;
         for (std::size_t k = 0; k < Dimension; ++k)
-            growth = std::max(growth, window[k] / bandwidth_.at_scale_1[k]);
+            widening = std::max(widening, window[k] / bandwidth_.at_scale_1[k]);
         for (const std::uint32_t i :
-             search_.within(in_bandwidths(at), reach * growth * (1 + 1e-9) + 1e-300)) {
+             search_.within(in_bandwidths(at), reach * widening * (1 + 1e-9) + 1e-300)) {
             const double sq_u = sq_windows(votes_[i].at, at, window);
             if (sq_u <= reach * reach) visit(i, sq_u);
         }
