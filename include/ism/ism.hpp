@@ -3,8 +3,8 @@
 #pragma once
 
 /// @file
-/// @brief Everything from images in memory to detections: needs the standard library alone. Files are read and written by
-/// the headers of ism/io (stb, nlohmann_json), figures are measured by those of ism/evaluate.
+/// @brief Everything from images in memory to detections: needs the standard library alone. Files are read
+/// and written by the headers of ism/io (stb, nlohmann_json), figures are measured by those of ism/evaluate.
 
 #include "ism/detect/detect.hpp"
 #include "ism/feature/byte_sift.hpp"

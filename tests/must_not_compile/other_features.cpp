@@ -8,4 +8,6 @@
 using Model = ism::TypedModel<ism::DenseGrid, ism::Sift>;
 
 void use(const Model& model);
-void wrong(const ism::TypedModel<ism::DenseGrid, ism::RootSift>& model) { use(model); }
+void wrong(const ism::TypedModel<ism::DenseGrid, ism::RootSift>& model) {
+    use(model);
+}

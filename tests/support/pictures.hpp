@@ -11,8 +11,8 @@
 
 namespace ism::test {
 
-/// @brief A drawn picture (synthetic) of 200 × 160 px with a square of 80 px, whose pattern of blobs tells the
-/// class, on a faint noise. The square is 1 m away, what is behind it 2 m.
+/// @brief A drawn picture (synthetic) of 200 × 160 px with a square of 80 px, whose pattern of blobs tells
+/// the class, on a faint noise. The square is 1 m away, what is behind it 2 m.
 /// @param left, top  of the square
 /// @param seed       of the noise
 [[nodiscard]] inline TrainingImage pattern_picture(std::uint32_t class_index, int left, int top,

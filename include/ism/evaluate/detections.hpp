@@ -22,8 +22,7 @@ namespace ism {
     std::vector<FoundObject> found;
     found.reserve(detections.size());
     for (const Detection& d : detections)
-        found.push_back(
-            {.image = image, .class_index = d.class_index, .box = d.box, .score = d.score});
+        found.push_back({.image = image, .class_index = d.class_index, .box = d.box, .score = d.score});
     return found;
 }
 
