@@ -82,20 +82,22 @@ struct ScoredExample {
 }
 
 /// @brief Learns how scores become probabilities, from hypotheses that were found without votes of their own
-/// image, judged by classifiers of boxes that were fitted without it (two halves of the images take turns). A
-/// class with few examples has the curve of all classes.
+/// image, judged by classifiers of boxes that were fitted without it: on the other half of the images. Where
+/// there are few, the halves take turns. A class with few examples has the curve of all classes.
 /// @param boxes         of training_boxes()
 /// @param half_of_view  see halves_of_views()
 [[nodiscard]] inline Calibration fit_calibration(std::span<const TrainingBox> boxes,
                                                  std::span<const std::uint8_t> half_of_view,
                                                  std::size_t words, std::size_t classes,
                                                  const TrainOptions& options) {
-    constexpr std::size_t least = 8;  // of each kind for a curve of its own
+    constexpr std::size_t least = 8;    // of each kind for a curve of its own
+    constexpr std::size_t many = 1000;  // hypotheses of one half are enough
     std::array<std::vector<TrainingBox>, 2> halves;
     for (const TrainingBox& box : boxes) halves[half_of_view[box.view]].push_back(box);
     std::vector<std::vector<ScoredExample>> of_class(classes);
     std::vector<ScoredExample> all;
     for (const std::size_t half : {0u, 1u}) {
+        if (half == 1 && all.size() >= many) break;
         BoxClassifier classifier;
         if (options.box_classifier)
             classifier = fit_box_classifier(halves[1 - half], words, classes, *options.box_classifier,
