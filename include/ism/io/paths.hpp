@@ -75,9 +75,4 @@ decltype(auto) at_place(const std::string& place, Read&& read) {
     return relative.empty() ? target : relative;
 }
 
-// For the headers that still ask for it here.
-namespace detail {
-using ism::file_text;
-}
-
 }  // namespace ism
