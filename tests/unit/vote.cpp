@@ -85,8 +85,8 @@ TEST_CASE("objects left out cast no votes, and the others of a word have its who
     shapes.class_names = {"only"};
     shapes.objects.resize(3);
     std::vector<ism::Occurrence> all;
-    for (const auto& [object, weight] : {std::pair(0u, 0.5f), {1u, 0.25f}, {2u, 0.25f}, {0u, 1.0f}})
-        all.push_back({.weight = weight, .object = object});
+    for (const auto& [number, weight] : {std::pair(0u, 0.5f), {1u, 0.25f}, {2u, 0.25f}, {0u, 1.0f}})
+        all.push_back({.weight = weight, .object = number});
     shapes.occurrences = {all, {0, 3, 4}};
     const std::vector<ism::Feature> features{{.x = 1, .y = 1}};
     const std::vector<ism::Match> matches{{0, 0, 1.0f}, {0, 1, 1.0f}};

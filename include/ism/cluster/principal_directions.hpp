@@ -23,10 +23,13 @@ public:
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] double& operator()(std::size_t k, std::size_t c) { return numbers_[k * count_ + c]; }
 
+    /// Number k of all directions.
+    [[nodiscard]] double* row(std::size_t k) { return numbers_.data() + k * count_; }
+
     /// The coordinates of a point along the directions.
     void project(const float* point, std::span<double> along) const {
         std::fill(along.begin(), along.end(), 0.0);
-        for (std::size_t k = 0; k < dimension_; ++k) add(point[k], &numbers_[k * count_], along);
+        for (std::size_t k = 0; k < dimension_; ++k) add(point[k], numbers_.data() + k * count_, along);
     }
 
     /// along += factor · row
@@ -74,9 +77,9 @@ private:
     for (int round = 0; round < 3; ++round) {
         PrincipalAxes next(dimension, count);
         for (std::size_t first = 0; first < points.size(); first += dimension) {
-            directions.project(&points[first], along);
+            directions.project(points.data() + first, along);
             for (std::size_t k = 0; k < dimension; ++k)
-                PrincipalAxes::add(points[first + k], along.data(), {&next(k, 0), count});
+                PrincipalAxes::add(points[first + k], along.data(), {next.row(k), count});
         }
         directions = next;
         directions.orthonormalise();

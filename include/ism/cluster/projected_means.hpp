@@ -42,7 +42,7 @@ public:
 
         const std::size_t sample = whole_ ? 0 : std::min<std::size_t>(count, 512);
         std::vector<float> points(sample * dimension);
-        for (std::size_t s = 0; s < sample; ++s) centre(s * count / sample, &points[s * dimension]);
+        for (std::size_t s = 0; s < sample; ++s) centre(s * count / sample, points.data() + s * dimension);
         const PrincipalAxes directions =
             principal_directions(points, dimension, whole_ ? 0 : projected_dimension - 1);
 

@@ -124,9 +124,7 @@ inline float sq_difference_avx512(const float* a, const float* b, std::size_t co
             _mm512_maskz_cvtps_pd(0xff, _mm256_sub_ps(_mm256_loadu_ps(a + k), _mm256_loadu_ps(b + k)));
         lanes = _mm512_fmadd_pd(d, d, lanes);
     }
-    Lanes<double, 8> sums;
-    _mm512_storeu_pd(sums.sums.data(), lanes);
-    return float(sums.sum());
+    return float(std::bit_cast<Lanes<double, 8>>(lanes).sum());
 }
 
 ISM_DETAIL_TARGET("avx512f")
@@ -142,9 +140,7 @@ inline float rough_sq_difference_avx512(const float* a, const float* b, std::siz
             _mm512_sub_ps(_mm512_maskz_loadu_ps(0xff, a + k), _mm512_maskz_loadu_ps(0xff, b + k));
         sum = _mm512_fmadd_ps(d, d, sum);
     }
-    Lanes<float, 16> sums;
-    _mm512_storeu_ps(sums.sums.data(), sum);
-    return sums.sum();
+    return std::bit_cast<Lanes<float, 16>>(sum).sum();
 }
 
 /// @brief rough_sq_difference_any() for processors with AVX2 and FMA.
