@@ -3,4 +3,4 @@
 // SPDX-License-Identifier: MIT
 #include "ism/feature/feature.hpp"
 
-ism::Descriptors<double, 3> descriptors;
+ism::Descriptors<double> descriptors;
