@@ -71,7 +71,7 @@ function(ism_find_catch2)
             target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}/tests")
             target_compile_features(${name} PUBLIC cxx_std_20)
             target_link_libraries(${name} PUBLIC Catch2::Catch2)
-            target_compile_options(${name} PRIVATE -O1)
+            target_compile_options(${name} PRIVATE -O0 -fno-sanitize=all) # what reports the tests is not what they test
         endif()
     endforeach()
     target_compile_definitions(ism_catch_benchmark_main PUBLIC CATCH_CONFIG_ENABLE_BENCHMARKING)

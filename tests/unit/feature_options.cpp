@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/catch.hpp"
+#include "support/noise.hpp"
 
 #include "ism/core/random.hpp"
 #include "ism/feature/byte_sift.hpp"
@@ -19,14 +20,9 @@
 #include "ism/feature/harris_laplace.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 
-namespace {
+using ism::test::noise;
 
-ism::GrayImage noise(int width, int height, std::uint64_t seed, double low = 0, double high = 1) {
-    ism::Random random(seed);
-    ism::GrayImage image(width, height);
-    for (float& value : image.pixels()) value = float(random.uniform(low, high));
-    return image;
-}
+namespace {
 
 template <class T>
 T next_below(T value) {

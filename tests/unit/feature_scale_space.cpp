@@ -5,11 +5,14 @@
 #include <numbers>
 
 #include "support/catch.hpp"
+#include "support/noise.hpp"
 
 #include "ism/core/random.hpp"
 #include "ism/feature/gradient.hpp"
 #include "ism/feature/resize.hpp"
 #include "ism/feature/scale_space.hpp"
+
+using ism::test::noise;
 
 namespace {
 
@@ -19,13 +22,6 @@ ism::GrayImage blob(int width, int height, double x, double y, double sigma) {
     for (int j = 0; j < height; ++j)
         for (int i = 0; i < width; ++i)
             image(i, j) = float(std::exp(-((i - x) * (i - x) + (j - y) * (j - y)) / (2 * sigma * sigma)));
-    return image;
-}
-
-ism::GrayImage noise(int width, int height, std::uint64_t seed) {
-    ism::Random random(seed);
-    ism::GrayImage image(width, height);
-    for (float& value : image.pixels()) value = float(random.uniform());
     return image;
 }
 

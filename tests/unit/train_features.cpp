@@ -25,9 +25,9 @@ using ism::test::TemporaryFolder;
 namespace {
 
 const std::vector<ism::AnyExtractor> extractors{ism::Extractor<ism::HessianLaplace, ism::RootSift>{}};
-const std::vector<std::string> names{"first", "second", "third"};
+const std::vector<std::string> class_names{"first", "second", "third"};
 
-/// Three pictures of a class, labelled as class 0 or as its own of `names`.
+/// Three pictures of a class, labelled as class 0 or as its own of `class_names`.
 std::vector<ism::TrainingImage> pictures_of(std::uint32_t pattern, bool own_class = false) {
     std::vector<ism::TrainingImage> images;
     for (int i = 0; i < 3; ++i) {
@@ -61,7 +61,7 @@ TEST_CASE("training asks for each image once, and for labels before") {
         ++image_calls;
         return inner(i);
     };
-    const auto model = ism::train<ism::HessianLaplace, ism::RootSift>(std::span(names).first(1), set);
+    const auto model = ism::train<ism::HessianLaplace, ism::RootSift>(std::span(class_names).first(1), set);
     CHECK(image_calls == 3);
     CHECK_FALSE(model.box_classifier.empty());
     CHECK_FALSE(model.calibration.empty());
@@ -71,9 +71,9 @@ TEST_CASE("training asks for each image once, and for labels before") {
 
 TEST_CASE("the limit of features leaves the strongest of each object, and the summary tells of it") {
     const auto images = pictures_of(0);
-    const auto all = features_of(std::span(names).first(1), images);
+    const auto all = features_of(std::span(class_names).first(1), images);
     const auto few =
-        ism::extract_training_features(std::span(names).first(1), ism::training_set(images), extractors,
+        ism::extract_training_features(std::span(class_names).first(1), ism::training_set(images), extractors,
                                        {.max_features = 1, .choose_upsampling = false});
     CHECK(all.summary.features_used == all.feature_count());
     CHECK(all.summary.features_found == all.feature_count());
@@ -85,8 +85,8 @@ TEST_CASE("the limit of features leaves the strongest of each object, and the su
 
 TEST_CASE("the same training features and model for any number of threads") {
     const auto images = pictures_of(1);
-    const auto one = features_of(std::span(names).first(1), images, 1),
-               two = features_of(std::span(names).first(1), images, 2);
+    const auto one = features_of(std::span(class_names).first(1), images, 1),
+               two = features_of(std::span(class_names).first(1), images, 2);
     CHECK(one.samples[0].descriptors == two.samples[0].descriptors);
     CHECK(same_model(ism::learn(one, {.threads = 1}), ism::learn(two, {.threads = 2})));
 }
@@ -97,11 +97,11 @@ TEST_CASE("classes learnt one after another give the model of all at once") {
     for (const std::uint32_t pattern : {0u, 1u, 2u}) {
         const auto own = pictures_of(pattern, true);
         all.insert(all.end(), own.begin(), own.end());
-        const auto features = features_of(std::span(names).subspan(pattern, 1), pictures_of(pattern));
+        const auto features = features_of(std::span(class_names).subspan(pattern, 1), pictures_of(pattern));
         joined = pattern == 0 ? features : ism::append(std::move(joined), features);
     }
-    const auto at_once = features_of(names, all);
-    CHECK(joined.class_names == names);
+    const auto at_once = features_of(class_names, all);
+    CHECK(joined.class_names == class_names);
     CHECK(joined.summary == at_once.summary);
     CHECK(same_model(ism::learn(joined), ism::learn(at_once)));
 }
@@ -127,7 +127,7 @@ TEST_CASE("more examples of a class that is known join it by name") {
 }
 
 TEST_CASE("training features that were found in another way cannot be joined") {
-    const auto own = features_of(std::span(names).first(1), pictures_of(0));
+    const auto own = features_of(std::span(class_names).first(1), pictures_of(0));
     ism::TrainingFeatures other = own;
     other.settings[0].options.upsampling = 2;
     CHECK_THROWS_WITH(ism::append(own, other), Catch::Contains("upsampling: expected 1, got 2"));
@@ -142,7 +142,7 @@ TEST_CASE("training features that were found in another way cannot be joined") {
 
 TEST_CASE("training features are kept beside a model and learnt from again") {
     const TemporaryFolder folder;
-    const auto features = features_of(std::span(names).first(1), pictures_of(0));
+    const auto features = features_of(std::span(class_names).first(1), pictures_of(0));
     const ism::Model model = ism::learn(features);
     ism::save_model(folder / "with", model, &features);
     ism::save_model(folder / "without", model);
@@ -180,7 +180,7 @@ TEST_CASE("a codebook of words a class matches own features alone") {
     std::vector<ism::TrainingImage> images = pictures_of(0, true);
     const auto more = pictures_of(1, true);
     images.insert(images.end(), more.begin(), more.end());
-    const ism::Model model = ism::learn(features_of(std::span(names).first(2), images),
+    const ism::Model model = ism::learn(features_of(std::span(class_names).first(2), images),
                                         {.codebook = {.kind = ism::CodebookKind::per_class}});
     const ism::Codebook& words = model.channels[0].codebook;
     CHECK(words[0].group == 0);
@@ -190,7 +190,7 @@ TEST_CASE("a codebook of words a class matches own features alone") {
 }
 
 TEST_CASE("wrong training options are refused by name") {
-    const auto features = features_of(std::span(names).first(1), pictures_of(0));
+    const auto features = features_of(std::span(class_names).first(1), pictures_of(0));
     const auto refuses = [&](const ism::TrainOptions& options, const char* what) {
         CHECK_THROWS_WITH(ism::learn(features, options), Catch::Contains(what));
     };
