@@ -4,15 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "ism/core/image.hpp"
 #include "ism/ism.hpp"
 
-float brightness_elsewhere(const ism::RgbImage& image);  // second.cpp
+bool found_elsewhere(const std::vector<std::string>& names,
+                     const std::vector<ism::TrainingImage>& images);  // second.cpp
 
 int main() {
-    const ism::RgbImage white(4, 3, {255, 255, 255});
     std::printf("ism %s\n", ism::version_text);
-    const float here = ism::to_gray(white)(3, 2);
 
     // A few bright squares, learnt and found again.
     std::vector<ism::TrainingImage> images(2);
@@ -26,5 +24,5 @@ int main() {
     const auto model = ism::train<ism::HessianLaplace, ism::RootSift>(names, images);
     const auto found = ism::detect<ism::Jism>(model, images[0].frame);
     std::printf("%zu words, %zu found\n", model.words(), found.objects.size());
-    return here > 0.99f && here == brightness_elsewhere(white) && !found.objects.empty() ? 0 : 1;
+    return !found.objects.empty() && found_elsewhere(names, images) ? 0 : 1;
 }

@@ -39,3 +39,12 @@ if(NOT output MATCHES "^ism ${VERSION}")
     message(FATAL_ERROR "consumer by ${WAY}: expected 'ism ${VERSION}' first, got '${output}'")
 endif()
 message(STATUS "${output}")
+
+if(WAY STREQUAL "find_package")
+    execute_process(COMMAND "${CMAKE_COMMAND}" -S "${ISM_SOURCE}/tests/consumer/${WAY}" -B "${SCRATCH}/too_new" -G "${GENERATOR}"
+                            "-DCMAKE_CXX_COMPILER=${COMPILER}" ${arguments} -DISM_VERSION=99 RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE output)
+    string(REGEX REPLACE "[ \n]+" " " output "${output}")
+    if(result EQUAL 0 OR NOT output MATCHES "requested version \"99\"" OR NOT output MATCHES "version: ${VERSION}")
+        message(FATAL_ERROR "consumer by ${WAY}: expected version 99 to be refused beside ${VERSION}, got '${output}'")
+    endif()
+endif()
