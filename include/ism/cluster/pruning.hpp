@@ -4,16 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "ism/core/lanes.hpp"
 #include "ism/core/processor.hpp"
-
-#if ISM_DETAIL_X86
-#include <immintrin.h>
-#endif
+#include "ism/core/vector.hpp"
 
 namespace ism::detail {
 
@@ -84,83 +81,119 @@ ISM_DETAIL_INLINE float sq_difference_body(const float* a, const float* b, std::
 /// @brief prune_tile_any() for processors with AVX2 and FMA.
 ISM_DETAIL_TARGET("avx2,fma")
 inline TileMask prune_tile_avx2(const TileRows& strip, const TileColumns& panel) {
-    const __m256 norm[2] = {_mm256_loadu_ps(panel.half_sq_norm), _mm256_loadu_ps(panel.half_sq_norm + 8)};
-    __m256 sum[tile_rows][2];
+    using Floats = Vector<float, 8>;
+    constexpr std::size_t lanes = 8, parts = tile_columns / lanes;
+    Floats sum[tile_rows][parts], column[parts];
+#pragma GCC unroll 8
+    for (std::size_t p = 0; p < parts; ++p)
+        std::memcpy(&column[p], panel.half_sq_norm + p * lanes, sizeof(Floats));
+#pragma GCC unroll 8
     for (std::size_t r = 0; r < tile_rows; ++r)
-        for (std::size_t h = 0; h < 2; ++h)
-            sum[r][h] = _mm256_sub_ps(_mm256_set1_ps(-strip.half_sq_norm[r]), norm[h]);
+#pragma GCC unroll 8
+        for (std::size_t p = 0; p < parts; ++p) sum[r][p] = -strip.half_sq_norm[r] - column[p];
     for (std::size_t k = 0; k < projected_dimension; ++k) {
-        const __m256 left = _mm256_loadu_ps(panel.numbers + k * tile_columns);
-        const __m256 right = _mm256_loadu_ps(panel.numbers + k * tile_columns + 8);
-        for (std::size_t r = 0; r < tile_rows; ++r) {
-            const __m256 one = _mm256_broadcast_ss(strip.numbers[r] + k);
-            sum[r][0] = _mm256_fmadd_ps(one, left, sum[r][0]);
-            sum[r][1] = _mm256_fmadd_ps(one, right, sum[r][1]);
-        }
+#pragma GCC unroll 8
+        for (std::size_t p = 0; p < parts; ++p)
+            std::memcpy(&column[p], panel.numbers + k * tile_columns + p * lanes, sizeof(Floats));
+#pragma GCC unroll 8
+        for (std::size_t r = 0; r < tile_rows; ++r)
+#pragma GCC unroll 8
+            for (std::size_t p = 0; p < parts; ++p) sum[r][p] += strip.numbers[r][k] * column[p];
     }
     TileMask passed{};
-    const __m256 cutoff[2] = {_mm256_loadu_ps(panel.cutoff), _mm256_loadu_ps(panel.cutoff + 8)};
+#pragma GCC unroll 8
+    for (std::size_t p = 0; p < parts; ++p) std::memcpy(&column[p], panel.cutoff + p * lanes, sizeof(Floats));
+#pragma GCC unroll 8
     for (std::size_t r = 0; r < tile_rows; ++r) {
-        const __m256 own = _mm256_set1_ps(strip.cutoff[r]);
-        const __m256 left = _mm256_cmp_ps(sum[r][0], _mm256_min_ps(own, cutoff[0]), _CMP_GE_OQ);
-        const __m256 right = _mm256_cmp_ps(sum[r][1], _mm256_min_ps(own, cutoff[1]), _CMP_GE_OQ);
-        passed[r] = std::uint16_t(_mm256_movemask_ps(left) | _mm256_movemask_ps(right) << 8);
+        const Floats own = strip.cutoff[r] - Floats{};
+#pragma GCC unroll 8
+        for (std::size_t p = 0; p < parts; ++p) {
+            const Floats passes = Floats(sum[r][p] >= (own < column[p] ? own : column[p]));
+            passed[r] |= std::uint16_t(__builtin_ia32_movmskps256(passes) << (p * lanes));
+        }
     }
     return passed;
 }
 
+/// sq_difference_body() with its lanes in two registers.
 ISM_DETAIL_TARGET("avx2,fma")
 inline float sq_difference_avx2(const float* a, const float* b, std::size_t count) {
-    return sq_difference_body(a, b, count);
+    Vector<double, 4> sum[2] = {}, d;
+    Vector<float, 4> x, y;
+    for (std::size_t k = 0; k < count; k += 8)
+#pragma GCC unroll 8
+        for (std::size_t half = 0; half < 2; ++half) {
+            std::memcpy(&x, a + k + half * 4, sizeof(x));
+            std::memcpy(&y, b + k + half * 4, sizeof(y));
+            x -= y;
+            asm("vcvtps2pd %1, %0" : "=v"(d) : "v"(x));  // g++ 12: four for __builtin_convertvector()
+            sum[half] += d * d;
+        }
+    sum[0] += sum[1];
+    return float(sum_of_lanes<double, 4>(sum[0]));
 }
 
-/// The same lanes in half as many instructions.
+/// sq_difference_body() with its lanes in one register.
 ISM_DETAIL_TARGET("avx512f")
 inline float sq_difference_avx512(const float* a, const float* b, std::size_t count) {
-    __m512d lanes = _mm512_setzero_pd();
+    Vector<double, 8> sum{}, d;
+    Vector<float, 8> x, y;
     for (std::size_t k = 0; k < count; k += 8) {
-        // maskz: g++ 12 warns of an uninitialised value in _mm512_cvtps_pd()
-        const __m512d d =
-            _mm512_maskz_cvtps_pd(0xff, _mm256_sub_ps(_mm256_loadu_ps(a + k), _mm256_loadu_ps(b + k)));
-        lanes = _mm512_fmadd_pd(d, d, lanes);
+        std::memcpy(&x, a + k, sizeof(x));
+        std::memcpy(&y, b + k, sizeof(y));
+        x -= y;
+        asm("vcvtps2pd %1, %0" : "=v"(d) : "v"(x));
+        sum += d * d;
     }
-    return float(std::bit_cast<Lanes<double, 8>>(lanes).sum());
+    return float(sum_of_lanes<double, 8>(sum));
 }
 
-ISM_DETAIL_TARGET("avx512f")
-inline float rough_sq_difference_avx512(const float* a, const float* b, std::size_t count) {
-    __m512 sum = _mm512_setzero_ps();
-    std::size_t k = 0;
-    for (; k + 16 <= count; k += 16) {
-        const __m512 d = _mm512_sub_ps(_mm512_loadu_ps(a + k), _mm512_loadu_ps(b + k));
-        sum = _mm512_fmadd_ps(d, d, sum);
-    }
-    if (k < count) {
-        const __m512 d =
-            _mm512_sub_ps(_mm512_maskz_loadu_ps(0xff, a + k), _mm512_maskz_loadu_ps(0xff, b + k));
-        sum = _mm512_fmadd_ps(d, d, sum);
-    }
-    return std::bit_cast<Lanes<float, 16>>(sum).sum();
-}
-
-/// @brief rough_sq_difference_any() for processors with AVX2 and FMA.
+/// rough_sq_difference_any() in 16 lanes, in two registers.
 ISM_DETAIL_TARGET("avx2,fma")
 inline float rough_sq_difference_avx2(const float* a, const float* b, std::size_t count) {
-    __m256 even = _mm256_setzero_ps(), odd = even;
+    Vector<float, 8> sum[2] = {}, x, y;
+    std::size_t k = 0;
+    for (; k + 16 <= count; k += 16)
+#pragma GCC unroll 8
+        for (std::size_t half = 0; half < 2; ++half) {
+            std::memcpy(&x, a + k + half * 8, sizeof(x));
+            std::memcpy(&y, b + k + half * 8, sizeof(y));
+            x -= y;
+            sum[half] += x * x;
+        }
+    if (k < count) {
+        std::memcpy(&x, a + k, sizeof(x));
+        std::memcpy(&y, b + k, sizeof(y));
+        x -= y;
+        sum[0] += x * x;
+    }
+    sum[0] += sum[1];
+    return sum_of_lanes<float, 8>(sum[0]);
+}
+
+/// The same lanes in one register.
+ISM_DETAIL_TARGET("avx512f,fma")
+inline float rough_sq_difference_avx512(const float* a, const float* b, std::size_t count) {
+    Vector<float, 16> sum{};
     std::size_t k = 0;
     for (; k + 16 <= count; k += 16) {
-        const __m256 d = _mm256_sub_ps(_mm256_loadu_ps(a + k), _mm256_loadu_ps(b + k));
-        const __m256 e = _mm256_sub_ps(_mm256_loadu_ps(a + k + 8), _mm256_loadu_ps(b + k + 8));
-        even = _mm256_fmadd_ps(d, d, even), odd = _mm256_fmadd_ps(e, e, odd);
+        Vector<float, 16> x, y;
+        std::memcpy(&x, a + k, sizeof(x));
+        std::memcpy(&y, b + k, sizeof(y));
+        x -= y;
+        sum += x * x;
     }
-    for (; k < count; k += 8) {
-        const __m256 d = _mm256_sub_ps(_mm256_loadu_ps(a + k), _mm256_loadu_ps(b + k));
-        even = _mm256_fmadd_ps(d, d, even);
+    Vector<float, 8> halves[2];
+    std::memcpy(halves, &sum, sizeof(sum));
+    if (k < count) {
+        Vector<float, 8> x, y;
+        std::memcpy(&x, a + k, sizeof(x));
+        std::memcpy(&y, b + k, sizeof(y));
+        x -= y;
+        halves[0] += x * x;
     }
-    const __m256 all = _mm256_add_ps(even, odd);
-    const __m128 half = _mm_add_ps(_mm256_castps256_ps128(all), _mm256_extractf128_ps(all, 1));
-    const __m128 pair = _mm_add_ps(half, _mm_movehl_ps(half, half));
-    return _mm_cvtss_f32(_mm_add_ss(pair, _mm_movehdup_ps(pair)));
+    halves[0] += halves[1];
+    return sum_of_lanes<float, 8>(halves[0]);
 }
 #endif
 

@@ -9,10 +9,7 @@
 #include "ism/codebook/filter.hpp"
 #include "ism/config.hpp"
 #include "ism/core/processor.hpp"
-
-#if ISM_DETAIL_X86
-#include <immintrin.h>
-#endif
+#include "ism/core/vector.hpp"
 
 namespace ism::detail {
 
@@ -41,23 +38,24 @@ struct ByteTask {
 /// Six queries and 64 words at a time: 24 sums in registers.
 ISM_DETAIL_TARGET("avx512f,avx512bw,avx512vnni")
 inline void filter_bytes_avx512_vnni(const ByteTask& task) {
+    using Ints = Vector<std::int32_t, 16>;
     constexpr std::size_t rows = 6, parts = 4;
     static_assert(filter_block % rows == 0);
     for (std::size_t i = 0; i < task.count; i += rows) {
         const std::uint8_t* query = task.queries + i * task.quads * 4;
-        __m512i sum[rows][parts];
+        Ints sum[rows][parts];
 #pragma GCC unroll 8
         for (std::size_t p = 0; p < parts; ++p)
 #pragma GCC unroll 8
-            for (std::size_t r = 0; r < rows; ++r) sum[r][p] = _mm512_loadu_si512(task.bias + 16 * p);
+            for (std::size_t r = 0; r < rows; ++r) std::memcpy(&sum[r][p], task.bias + 16 * p, sizeof(Ints));
         for (std::size_t k = 0; k < task.quads; ++k) {
-            __m512i word[parts];
+            Ints word[parts];
 #pragma GCC unroll 8
             for (std::size_t p = 0; p < parts; ++p)
-                word[p] = _mm512_loadu_si512(task.words + (k * parts + p) * 64);
+                std::memcpy(&word[p], task.words + (k * parts + p) * 64, sizeof(Ints));
 #pragma GCC unroll 8
             for (std::size_t r = 0; r < rows; ++r) {
-                const __m512i four = _mm512_set1_epi32(four_bytes(query + (r * task.quads + k) * 4));
+                const Ints four = four_bytes(query + (r * task.quads + k) * 4) + Ints{};
 #pragma GCC unroll 8
                 for (std::size_t p = 0; p < parts; ++p)
                     // g++ 12 copies the accumulator of _mm512_dpbusd_epi32() before each call: matching
@@ -67,11 +65,13 @@ inline void filter_bytes_avx512_vnni(const ByteTask& task) {
         }
 #pragma GCC unroll 8
         for (std::size_t r = 0; r < rows; ++r) {
-            const __m512i limit = _mm512_set1_epi32(task.limits[i + r]);
+            const Ints limit = task.limits[i + r] + Ints{};
             std::uint64_t mask = 0;
 #pragma GCC unroll 8
-            for (std::size_t p = 0; p < parts; ++p)
-                mask |= std::uint64_t(_mm512_cmpgt_epi32_mask(sum[r][p], limit)) << (16 * p);
+            for (std::size_t p = 0; p < parts; ++p) {
+                constexpr int greater = 6;  // not less or equal
+                mask |= std::uint64_t(__builtin_ia32_cmpd512_mask(sum[r][p], limit, greater, -1)) << (16 * p);
+            }
             task.masks[i + r] = mask;
         }
     }
@@ -81,47 +81,47 @@ inline void filter_bytes_avx512_vnni(const ByteTask& task) {
 /// only every other sum is widened.
 ISM_DETAIL_TARGET("avx2,fma")
 inline void filter_bytes_avx2(const ByteTask& task) {
+    using Ints = Vector<std::int32_t, 8>;
+    using Shorts = Vector<std::int16_t, 16>;
+    using Bytes = Vector<char, 32>;
     constexpr std::size_t rows = 4, parts = 2, strips = filter_group / (8 * parts);
     static_assert(filter_block % rows == 0);
-    const __m256i ones = _mm256_set1_epi16(1);
+    const Shorts ones = std::int16_t(1) + Shorts{};
     for (std::size_t i = 0; i < task.count; i += rows) {
         const std::uint8_t* query = task.queries + i * task.quads * 4;
         for (std::size_t r = 0; r < rows; ++r) task.masks[i + r] = 0;
         for (std::size_t s = 0; s < strips; ++s) {
-            __m256i sum[rows][parts];
+            Ints sum[rows][parts];
 #pragma GCC unroll 8
             for (std::size_t p = 0; p < parts; ++p)
 #pragma GCC unroll 8
                 for (std::size_t r = 0; r < rows; ++r)
-                    sum[r][p] =
-                        _mm256_loadu_si256(reinterpret_cast<const __m256i*>(task.bias + 8 * (s * parts + p)));
+                    std::memcpy(&sum[r][p], task.bias + 8 * (s * parts + p), sizeof(Ints));
             for (std::size_t k = 0; k < task.quads; k += 2) {
                 const std::int8_t* words = task.words + k * 256 + s * parts * 32;
 #pragma GCC unroll 8
                 for (std::size_t r = 0; r < rows; ++r) {
                     const std::uint8_t* eight = query + (r * task.quads + k) * 4;
-                    const __m256i a = _mm256_set1_epi32(four_bytes(eight));
-                    const __m256i b = _mm256_set1_epi32(four_bytes(eight + 4));
+                    const Ints a = four_bytes(eight) + Ints{}, b = four_bytes(eight + 4) + Ints{};
 #pragma GCC unroll 8
                     for (std::size_t p = 0; p < parts; ++p) {
-                        const auto* word = reinterpret_cast<const __m256i*>(words + p * 32);
-                        const __m256i pairs =
-                            _mm256_add_epi16(_mm256_maddubs_epi16(a, _mm256_loadu_si256(word)),
-                                             _mm256_maddubs_epi16(b, _mm256_loadu_si256(word + 8)));
-                        sum[r][p] = _mm256_add_epi32(sum[r][p], _mm256_madd_epi16(pairs, ones));
+                        Bytes first, second;
+                        std::memcpy(&first, words + p * 32, sizeof(Bytes));
+                        std::memcpy(&second, words + p * 32 + 256, sizeof(Bytes));
+                        const Shorts pairs = __builtin_ia32_pmaddubsw256(Bytes(a), first) +
+                                             __builtin_ia32_pmaddubsw256(Bytes(b), second);
+                        sum[r][p] += __builtin_ia32_pmaddwd256(pairs, ones);
                     }
                 }
             }
 #pragma GCC unroll 8
-            for (std::size_t r = 0; r < rows; ++r) {
-                const __m256i limit = _mm256_set1_epi32(task.limits[i + r]);
+            for (std::size_t r = 0; r < rows; ++r)
 #pragma GCC unroll 8
                 for (std::size_t p = 0; p < parts; ++p) {
-                    const int bits =
-                        _mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpgt_epi32(sum[r][p], limit)));
-                    task.masks[i + r] |= std::uint64_t(unsigned(bits)) << (8 * (s * parts + p));
+                    const auto exceeds = Vector<float, 8>(sum[r][p] > task.limits[i + r]);
+                    task.masks[i + r] |= std::uint64_t(unsigned(__builtin_ia32_movmskps256(exceeds)))
+                                         << (8 * (s * parts + p));
                 }
-            }
         }
     }
 }

@@ -10,6 +10,7 @@
 #include "ism/codebook/filter.hpp"
 #include "ism/config.hpp"
 #include "ism/core/processor.hpp"
+#include "ism/core/vector.hpp"
 
 namespace ism::detail {
 
@@ -77,10 +78,8 @@ ISM_DETAIL_INLINE void filter_floats_body(const FloatTask& task) {
 using FilterFloats = void(const FloatTask&);
 
 #if defined(__GNUC__)
-using FourFloats [[gnu::vector_size(16)]] = float;
-using EightFloats [[gnu::vector_size(32)]] = float;
 inline void filter_floats_any(const FloatTask& task) {
-    filter_floats_body<FourFloats, 4>(task);
+    filter_floats_body<Vector<float, 4>, 4>(task);
 }
 #else
 inline void filter_floats_any(const FloatTask& task) {
@@ -91,7 +90,7 @@ inline void filter_floats_any(const FloatTask& task) {
 #if ISM_DETAIL_X86
 ISM_DETAIL_TARGET("avx2,fma")
 inline void filter_floats_avx2(const FloatTask& task) {
-    filter_floats_body<EightFloats, 6>(task);
+    filter_floats_body<Vector<float, 8>, 6>(task);
 }
 #endif
 

@@ -4,8 +4,7 @@
 
 /// @file
 /// @brief Which instruction set a kernel is compiled for and runs with: no compiler flags are asked of the
-/// user, and which sets there are is looked up when the program runs. Headers that use intrinsics include
-/// <immintrin.h> themselves.
+/// user, and which sets there are is looked up when the program runs.
 
 #include <initializer_list>
 
