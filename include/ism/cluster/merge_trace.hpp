@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/order.hpp"
 
 namespace ism {
 
@@ -82,10 +82,9 @@ inline void sort_merges(MergeTrace& trace) {
         }
     }
     std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t t) {  // a merge is larger than those that made its clusters
-        return std::tuple(merges[t].sq_distance, merges[t].size, first_point[t]);
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    // a merge is larger than those that made its clusters
+    sort_by(order, [&](std::uint32_t t) { return joined(merges[t].size, first_point[t]); });
+    sort_by(order, [&](std::uint32_t t) { return rising(merges[t].sq_distance); });
     std::vector<Merge> sorted;
     sorted.reserve(merges.size());
     for (const std::uint32_t t : order) {

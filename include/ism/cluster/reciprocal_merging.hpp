@@ -15,6 +15,7 @@
 #include "ism/cluster/neighbour_lists.hpp"
 #include "ism/cluster/neighbour_search.hpp"
 #include "ism/cluster/update_neighbours.hpp"
+#include "ism/core/order.hpp"
 #include "ism/core/processor.hpp"
 #include "ism/core/thread_pool.hpp"
 
@@ -43,9 +44,10 @@ public:
 
     [[nodiscard]] MergeTrace run() && {
         merge_equal();
-        const auto last = std::stable_partition(alive_.begin(), alive_.end(),
-                                                [&](std::uint32_t i) { return i >= settled_; });
-        NeighbourSearch(clusters_, lists_, alive_, {}, std::size_t(alive_.end() - last)).run(pool_);
+        sort_by(alive_, [&](std::uint32_t i) { return std::uint64_t(i < settled_); });
+        const auto settled =
+            std::count_if(alive_.begin(), alive_.end(), [&](std::uint32_t i) { return i < settled_; });
+        NeighbourSearch(clusters_, lists_, alive_, {}, std::size_t(settled)).run(pool_);
         while (keep_those_with_neighbours()) {
             merge_reciprocal();
             update_all_neighbours();
@@ -63,12 +65,12 @@ private:
 
     /// Merges equal points before any search: many of them would fill each other's lists in every round.
     void merge_equal() {
-        std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
-        for (const std::uint32_t i : alive_) keys.emplace_back(clusters_.fingerprint(i), i);
-        std::sort(keys.begin(), keys.end());
-        for (std::size_t first = 0, at = 1; at < keys.size(); ++at) {
-            const auto [kept, gone] = std::pair(keys[first].second, keys[at].second);
-            if (keys[first].first != keys[at].first || !clusters_.equal(kept, gone)) {
+        std::vector<Ranked> order;
+        for (const std::uint32_t i : alive_) order.push_back({clusters_.fingerprint(i), i});
+        sort_ranked(order);
+        for (std::size_t first = 0, at = 1; at < order.size(); ++at) {
+            const std::uint32_t kept = order[first].index, gone = order[at].index;
+            if (order[first].key != order[at].key || !clusters_.equal(kept, gone)) {
                 first = at;
                 continue;
             }

@@ -16,6 +16,7 @@
 #include "ism/codebook/exact_dot.hpp"
 #include "ism/codebook/float_filter.hpp"
 #include "ism/core/error.hpp"
+#include "ism/core/order.hpp"
 
 namespace ism {
 
@@ -77,13 +78,13 @@ public:
 private:
     /// Groups by number of those that have words.
     void number_groups() {
-        std::vector<std::uint32_t> used = groups_;
-        std::sort(used.begin(), used.end());
-        used.erase(std::unique(used.begin(), used.end()), used.end());
-        group_count_ = used.size();
-        for (std::uint32_t& group : groups_)
-            group =
-                static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), group) - used.begin());
+        std::vector<detail::Ranked> order;
+        for (std::uint32_t word = 0; word < size(); ++word) order.push_back({groups_[word], word});
+        detail::sort_ranked(order);
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            group_count_ += i == 0 || order[i].key != order[i - 1].key;
+            groups_[order[i].index] = static_cast<std::uint32_t>(group_count_ - 1);
+        }
     }
 
     std::vector<float> words_, mean_sq_lengths_;

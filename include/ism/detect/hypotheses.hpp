@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ism/codebook/match.hpp"
+#include "ism/core/order.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/scene.hpp"
@@ -23,8 +24,7 @@ namespace ism {
 
 /// @brief The value below which half of the weight lies; NaN without weight.
 [[nodiscard]] inline double weighted_median(std::vector<std::pair<double, double>> value_and_weight) {
-    std::stable_sort(value_and_weight.begin(), value_and_weight.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    detail::sort_by(value_and_weight, [](const auto& v) { return detail::rising(v.first); });
     double total = 0, sum = 0;
     for (const auto& [value, weight] : value_and_weight) total += weight;
     for (const auto& [value, weight] : value_and_weight)
@@ -74,8 +74,7 @@ namespace ism {
     result.depth_m = weighted_median(std::move(depths));
     if (scene.frame.camera && is_depth(result.depth_m))
         result.position_m = back_project(*scene.frame.camera, result.centre, result.depth_m);
-    std::stable_sort(window.begin(), window.end(),
-                     [](const Support& a, const Support& b) { return a.weight > b.weight; });
+    detail::sort_by(window, [](const Support& s) { return detail::falling(s.weight); });
     result.support = std::move(window);
     return result;
 }

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "ism/core/order.hpp"
 #include "ism/core/stopwatch.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
@@ -46,10 +46,10 @@ template <Rescorer R, Segmenter S, Verifier V>
 [[nodiscard]] Detections judge_hypotheses(Scene scene, std::vector<Detection> hypotheses,
                                           const DetectOptions& options, const R& rescorer, const S& segmenter,
                                           const V& verifier, DetectionStats stats) {
-    const auto stronger = [](const Detection& a, const Detection& b) { return a.score > b.score; };
+    const auto strongest_first = [](const Detection& d) { return falling(d.score); };
     Stopwatch watch;
     hypotheses = rescorer.rescore(std::move(hypotheses), scene);
-    std::stable_sort(hypotheses.begin(), hypotheses.end(), stronger);
+    sort_by(hypotheses, strongest_first);
     stats.candidates = hypotheses.size();
     if (hypotheses.size() > options.max_hypotheses) hypotheses.resize(options.max_hypotheses);
     for (Detection& hypothesis : hypotheses)
@@ -66,7 +66,7 @@ template <Rescorer R, Segmenter S, Verifier V>
         result.objects.push_back(std::move(hypotheses[verified.index]));
         result.objects.back().score = verified.score;
     }
-    std::stable_sort(result.objects.begin(), result.objects.end(), stronger);
+    sort_by(result.objects, strongest_first);
     std::erase_if(result.objects, [&](const Detection& object) {
         return object.score < options.min_relative_score * result.objects.front().score;
     });

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/order.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/vote/placement.hpp"
@@ -56,10 +57,9 @@ namespace detail {
                                                          const ShapeModel& shapes) {
     std::vector<Support> patches(support.begin(), support.end());
     const auto key = [&](const Support& s) {
-        return std::pair(s.feature, shapes.occurrence(s.occurrence).feature);
+        return joined(s.feature, shapes.occurrence(s.occurrence).feature);
     };
-    std::stable_sort(patches.begin(), patches.end(),
-                     [&](const Support& a, const Support& b) { return key(a) < key(b); });
+    sort_by(patches, key);
     std::size_t count = 0;
     double total = 0;
     for (const Support& patch : patches) {

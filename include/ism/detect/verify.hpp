@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/order.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/scene.hpp"
 
@@ -38,8 +39,7 @@ struct NonMaximumSuppression {
     [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> hypotheses) const {
         std::vector<Verified> order, kept;
         for (std::size_t i = 0; i < hypotheses.size(); ++i) order.push_back({i, hypotheses[i].score});
-        std::stable_sort(order.begin(), order.end(),
-                         [](const Verified& a, const Verified& b) { return a.score > b.score; });
+        detail::sort_by(order, [](const Verified& v) { return detail::falling(v.score); });
         for (const Verified& candidate : order) {
             const Detection& own = hypotheses[candidate.index];
             const bool free = std::none_of(kept.begin(), kept.end(), [&](const Verified& other) {

@@ -8,10 +8,9 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
-#include <tuple>
 
+#include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/scale_space.hpp"
 #include "ism/feature/workspace.hpp"
@@ -43,25 +42,22 @@ void for_each_feature(ScaleSpace& space, std::span<const Feature> features, floa
     const int banded = space.banded_octaves();
     if (banded == 0) return each_of(features.size(), [](std::size_t i) { return i; });
 
-    const auto octave = workspace.numbers(Scratch::octave, features.size());
-    const auto order = workspace.numbers(Scratch::order, features.size());
+    const auto order = workspace.ranked(features.size());
     std::array<FeaturesOfOctave, max_scale_octaves> parts{};
     for (std::size_t i = 0; i < features.size(); ++i) {
         const int o = space.nearest_level(level_scale(features[i])).octave;
-        octave[i] = std::uint32_t(std::min(o, banded));
-        FeaturesOfOctave& part = parts[octave[i]];
+        const auto held = std::uint32_t(std::min(o, banded));
+        order[i] = {joined(held, rising(features[i].y)), std::uint32_t(i)};
+        FeaturesOfOctave& part = parts[held];
         ++part.end;
         const float rows = std::ceil(std::min(1e6f, reach * features[i].scale / space.step(o)));
         part.rows_around = std::max(part.rows_around, int(rows) + 4);
     }
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::tie(octave[a], features[a].y, a) < std::tie(octave[b], features[b].y, b);
-    });
+    sort_ranked(order);
     for (std::size_t o = 1; o < parts.size(); ++o)
         parts[o].next = parts[o - 1].end, parts[o].end += parts[o].next;
     const auto run = [&](FeaturesOfOctave& part, std::size_t end) {
-        each_of(end - part.next, [&](std::size_t i) { return order[part.next + i]; });
+        each_of(end - part.next, [&](std::size_t i) { return order[part.next + i].index; });
         part.next = end;
     };
     run(parts[std::size_t(banded)], parts[std::size_t(banded)].end);
@@ -69,7 +65,7 @@ void for_each_feature(ScaleSpace& space, std::span<const Feature> features, floa
         for (int o = 0; o < banded; ++o) {
             FeaturesOfOctave& part = parts[std::size_t(o)];
             const int height = space.level_height(o), ready = space.rows_ready(o);
-            const auto row = [&](std::size_t i) { return int(features[order[i]].y / space.step(o)); };
+            const auto row = [&](std::size_t i) { return int(features[order[i].index].y / space.step(o)); };
             std::size_t end = part.next;
             while (end < part.end && (ready == height || row(end) + part.rows_around < ready)) ++end;
             run(part, end);

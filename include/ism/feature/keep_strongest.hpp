@@ -6,11 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <span>
-#include <tuple>
 #include <vector>
 
+#include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/workspace.hpp"
 
@@ -24,28 +22,30 @@ inline void keep_strongest_evenly(std::vector<Feature>& features, std::size_t co
     const double area = std::max(1.0, double(width) * height);
     const double side = std::sqrt(area / std::max(1.0, double(count) / 8));
     const double columns = std::floor(width / side) + 1;
-    const auto cell = workspace.numbers(Scratch::cell, features.size());
-    const auto order = workspace.numbers(Scratch::order, features.size());
-    const auto turn = workspace.numbers(Scratch::turn, features.size());
+    const auto order = workspace.ranked(features.size());
+    const auto dropped = workspace.numbers(Scratch::dropped, features.size());
     for (std::size_t i = 0; i < features.size(); ++i) {
         const double column = std::clamp(std::floor(double(features[i].x) / side), 0.0, columns - 1);
-        cell[i] = std::uint32_t(std::max(0.0, std::floor(double(features[i].y) / side)) * columns + column);
+        const double cell = std::max(0.0, std::floor(double(features[i].y) / side)) * columns + column;
+        order[i] = {detail::joined(std::uint32_t(cell), detail::falling(features[i].strength)),
+                    std::uint32_t(i)};
     }
-    std::iota(order.begin(), order.end(), 0u);
-    const auto sort_by = [&](std::span<const std::uint32_t> first) {
-        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::tuple(first[a], -features[a].strength, a) <
-                   std::tuple(first[b], -features[b].strength, b);
-        });
-    };
-    sort_by(cell);
-    turn[order[0]] = 0;
-    for (std::size_t i = 1; i < order.size(); ++i)
-        turn[order[i]] = cell[order[i]] == cell[order[i - 1]] ? turn[order[i - 1]] + 1 : 0;
-    sort_by(turn);
-    std::sort(order.begin(), order.begin() + std::ptrdiff_t(count));
-    for (std::size_t i = 0; i < count; ++i) features[i] = features[order[i]];
-    features.resize(count);
+    detail::sort_ranked(order);
+    std::uint64_t last_cell = order.front().key >> 32;
+    std::uint32_t turn = 0;
+    for (detail::Ranked& next : order) {
+        const std::uint64_t cell = next.key >> 32;
+        if (cell != last_cell) turn = 0;
+        last_cell = cell;
+        next.key = detail::joined(turn++, std::uint32_t(next.key));
+    }
+    detail::sort_ranked(order);
+    std::fill(dropped.begin(), dropped.end(), 1u);
+    for (const detail::Ranked& strong : order.first(count)) dropped[strong.index] = 0;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < features.size(); ++i)
+        if (dropped[i] == 0) features[kept++] = features[i];
+    features.resize(kept);
 }
 
 }  // namespace ism

@@ -8,12 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <vector>
 
 #include "ism/core/image.hpp"
+#include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/workspace.hpp"
 
@@ -87,19 +87,16 @@ inline void drop_duplicates(std::vector<Feature>& features, float radius, float 
     const std::size_t count = features.size();
     const auto by_y = workspace.numbers(Scratch::order, count);
     const auto place = workspace.numbers(Scratch::place, count);
-    const auto by_strength = workspace.numbers(Scratch::by_strength, count);
+    const auto order = workspace.ranked(count);
     const auto dropped = workspace.numbers(Scratch::dropped, count);
-    std::iota(by_y.begin(), by_y.end(), 0u);
-    std::iota(by_strength.begin(), by_strength.end(), 0u);
     std::fill(dropped.begin(), dropped.end(), 0u);
-    std::sort(by_y.begin(), by_y.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::tie(features[a].y, a) < std::tie(features[b].y, b);
-    });
-    for (std::size_t i = 0; i < count; ++i) place[by_y[i]] = std::uint32_t(i);
-    std::sort(by_strength.begin(), by_strength.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::tie(features[b].strength, a) < std::tie(features[a].strength, b);
-    });
-    for (const std::uint32_t i : by_strength) {
+    for (std::uint32_t i = 0; i < count; ++i) order[i] = {rising(features[i].y), i};
+    sort_ranked(order);
+    for (std::uint32_t i = 0; i < count; ++i) by_y[i] = order[i].index, place[by_y[i]] = i;
+    for (std::uint32_t i = 0; i < count; ++i) order[i] = {falling(features[i].strength), i};
+    sort_ranked(order);
+    for (const Ranked& strongest : order) {
+        const std::uint32_t i = strongest.index;
         if (dropped[i] != 0) continue;
         const Feature& strong = features[i];
         const float reach = radius * strong.scale;

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "ism/core/order.hpp"
 #include "ism/feature/for_each_feature.hpp"
 #include "ism/feature/gradient.hpp"
 #include "ism/feature/local_maxima.hpp"
@@ -109,7 +109,8 @@ struct Directions {
 [[nodiscard]] inline Directions dominant_directions(const DirectionHistogram& histogram,
                                                     const OrientationOptions& options) {
     constexpr float bin_width = 2 * std::numbers::pi_v<float> / direction_bins;
-    std::array<std::pair<float, float>, direction_bins / 2> peaks;  // −height, angle
+    std::array<float, direction_bins / 2> angles;
+    std::array<Ranked, direction_bins / 2> peaks;
     std::size_t count = 0;
     const float least = options.peak_ratio * *std::max_element(histogram.begin(), histogram.end());
     for (std::size_t b = 0; b < direction_bins; ++b) {
@@ -118,12 +119,14 @@ struct Directions {
         if (!(height > before && height >= after && height >= least)) continue;
         float angle = (float(b) + parabola_top(before, height, after)) * bin_width;
         if (angle > std::numbers::pi_v<float>) angle -= 2 * std::numbers::pi_v<float>;
-        peaks[count++] = {-height, angle == 0 ? 1e-6f : angle};
+        angles[count] = angle == 0 ? 1e-6f : angle;
+        peaks[count] = {joined(falling(height), rising(angles[count])), std::uint32_t(count)};
+        ++count;
     }
-    std::sort(peaks.begin(), peaks.begin() + std::ptrdiff_t(count));
+    sort_ranked(std::span(peaks).first(count));
     Directions directions;
     directions.count = std::min(count, std::size_t(options.max_peaks));
-    for (std::size_t i = 0; i < directions.count; ++i) directions.angle[i] = peaks[i].second;
+    for (std::size_t i = 0; i < directions.count; ++i) directions.angle[i] = angles[peaks[i].index];
     return directions;
 }
 

@@ -14,6 +14,7 @@
 
 #include "ism/core/aligned.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/order.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/gaussian_kernel.hpp"
@@ -22,16 +23,12 @@ namespace ism {
 
 /// @brief What the scratch buffers of a Workspace are for: one number per feature.
 enum class Scratch : std::uint8_t {
-    order,        ///< features in another order
-    place,        ///< where a feature is in such an order
-    by_strength,  ///< features from strong to weak
-    dropped,      ///< whether a feature is left out
-    cell,         ///< of the image, in which a feature lies
-    turn,         ///< of a feature among those of its cell
-    octave,       ///< in which a feature's surroundings lie
-    directions,   ///< how many directions a feature has
-    angles,       ///< bits of these directions, several a feature
-    count         ///< how many there are of these
+    order,       ///< features in another order
+    place,       ///< where a feature is in such an order
+    dropped,     ///< whether a feature is left out
+    directions,  ///< how many directions a feature has
+    angles,      ///< bits of these directions, several a feature
+    count        ///< how many there are of these
 };
 
 /// @brief Threads and memory for feature extraction, reused across frames: after the first frame of a size
@@ -83,6 +80,12 @@ public:
         return {own.data(), count};
     }
 
+    /// @brief Scratch to sort `count` features, uninitialised; valid until the next call.
+    [[nodiscard]] std::span<detail::Ranked> ranked(std::size_t count) {
+        if (ranked_.size() < count) ranked_.resize(count);
+        return {ranked_.data(), count};
+    }
+
     /// @brief gaussian_kernel(sigma), cached.
     [[nodiscard]] std::span<const float> kernel(double sigma) {
         for (const auto& [known, weights] : kernels_)
@@ -127,6 +130,7 @@ private:
     std::vector<AlignedVector<float>> rows_;
     std::vector<std::vector<Feature>> lists_, spare_;
     std::array<std::vector<std::uint32_t>, std::size_t(Scratch::count)> numbers_;
+    std::vector<detail::Ranked> ranked_;
     std::vector<GrayImage> images_;
     std::vector<std::pair<double, std::vector<float>>> kernels_;
 };

@@ -12,6 +12,7 @@
 #include "ism/codebook/codebook.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/grouped.hpp"
+#include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 
 namespace ism {
@@ -78,8 +79,7 @@ struct BoxClassifier {
             total += 2 * double(match.weight);
         }
     }
-    std::stable_sort(bins.begin(), bins.end(),
-                     [](const SparseEntry& a, const SparseEntry& b) { return a.index < b.index; });
+    detail::sort_by(bins, [](const SparseEntry& bin) { return bin.index; });
     std::size_t count = 0;
     for (const SparseEntry& bin : bins) {
         if (count > 0 && bins[count - 1].index == bin.index)

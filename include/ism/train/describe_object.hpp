@@ -13,6 +13,7 @@
 #include "ism/core/camera.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/geometry.hpp"
+#include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/model/occurrence.hpp"
 #include "ism/model/training_object.hpp"
@@ -97,11 +98,9 @@ namespace ism {
 [[nodiscard]] inline std::vector<std::size_t> strongest(std::vector<std::size_t> chosen,
                                                         std::span<const Feature> features, std::size_t most) {
     if (chosen.size() <= most) return chosen;
-    std::stable_sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
-        return features[a].strength > features[b].strength;
-    });
+    detail::sort_by(chosen, [&](std::size_t i) { return detail::falling(features[i].strength); });
     chosen.resize(most);
-    std::sort(chosen.begin(), chosen.end());
+    detail::sort_by(chosen, [](std::size_t i) { return i; });
     return chosen;
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/order.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/feature/any_extractor.hpp"
@@ -30,9 +31,8 @@ namespace ism {
 /// @param sizes_px  roots of the boxes' areas, at least one
 [[nodiscard]] inline double choose_upsampling(std::vector<double> sizes_px) {
     constexpr double wanted_px = 150, most = 4;
-    const auto middle = sizes_px.begin() + std::ptrdiff_t(sizes_px.size() / 2);
-    std::nth_element(sizes_px.begin(), middle, sizes_px.end());
-    return std::clamp(wanted_px / *middle, 1.0, most);
+    detail::sort_by(sizes_px, [](double size) { return detail::rising(size); });
+    return std::clamp(wanted_px / sizes_px[sizes_px.size() / 2], 1.0, most);
 }
 
 namespace detail {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/order.hpp"
 #include "ism/model/model.hpp"
 #include "ism/train/information_gain.hpp"
 #include "ism/train/occurrence_weights.hpp"
@@ -49,10 +49,9 @@ namespace ism {
     std::vector<std::uint32_t> chosen(worth.size());
     std::iota(chosen.begin(), chosen.end(), 0u);
     if (count >= worth.size()) return chosen;
-    std::stable_sort(chosen.begin(), chosen.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return worth[a] > worth[b]; });
+    detail::sort_by(chosen, [&](std::uint32_t word) { return detail::falling(worth[word]); });
     chosen.resize(count);
-    std::sort(chosen.begin(), chosen.end());
+    detail::sort_by(chosen, [](std::uint32_t word) { return word; });
     return chosen;
 }
 

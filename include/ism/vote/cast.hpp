@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
+#include "ism/core/order.hpp"
 #include "ism/model/shape_model.hpp"
 #include "ism/vote/vote.hpp"
 #include "ism/vote/vote_space.hpp"
@@ -38,8 +39,7 @@ void sort_by_label(std::vector<Vote<Dimension>>& votes) {
     std::uint32_t last = 0;
     for (const auto& vote : votes) last = std::max(last, vote.label);
     if (last > 2 * votes.size()) {
-        std::stable_sort(votes.begin(), votes.end(),
-                         [](const auto& a, const auto& b) { return a.label < b.label; });
+        sort_by(votes, [](const auto& vote) { return vote.label; });
         return;
     }
     std::vector<std::size_t> next(std::size_t(last) + 2, 0);

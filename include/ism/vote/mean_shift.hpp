@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/order.hpp"
 #include "ism/vote/bandwidth.hpp"
 #include "ism/vote/kernel.hpp"
 #include "ism/vote/mode.hpp"
@@ -83,8 +84,7 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
         mode.score = window_score<K>(search, mode.at, search.bandwidth().at(mode.scale));
         if (mode.score > 0) modes.push_back(mode);
     }
-    std::stable_sort(modes.begin(), modes.end(),
-                     [](const auto& a, const auto& b) { return a.score > b.score; });
+    detail::sort_by(modes, [](const auto& mode) { return detail::falling(mode.score); });
     for (const auto& mode : modes)
         if (std::none_of(apart.begin(), apart.end(), [&](const auto& other) { return near(mode, other, 1); }))
             apart.push_back(mode);
@@ -107,8 +107,7 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
     search.each_within(mode.at, window, detail::rounded_reach<K>, [&](std::uint32_t i, double sq_u) {
         if (const double kernel = K::profile(float(sq_u)); kernel > 0) support.push_back({i, kernel});
     });
-    std::sort(support.begin(), support.end(),
-              [](const WindowVote& a, const WindowVote& b) { return a.index < b.index; });
+    detail::sort_by(support, [](const WindowVote& vote) { return vote.index; });
     return support;
 }
 

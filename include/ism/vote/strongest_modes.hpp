@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/order.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/vote/mean_shift.hpp"
 
@@ -35,9 +36,8 @@ namespace detail {
 template <std::size_t Dimension>
 void keep_strongest(std::vector<SupportedMode<Dimension>>& modes, std::size_t max_count,
                     double min_relative_score) {
-    std::stable_sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) {
-        return a.score > b.score || (a.score == b.score && a.label < b.label);
-    });
+    sort_by(modes, [](const auto& mode) { return mode.label; });
+    sort_by(modes, [](const auto& mode) { return falling(mode.score); });
     std::size_t count = 0;
     while (count < std::min(max_count, modes.size()) &&
            modes[count].score >= min_relative_score * modes.front().score)
@@ -76,8 +76,7 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search = VoteGr
     std::vector<double> bound(labels.size());
     std::vector<std::uint32_t> order(labels.size());
     for (std::uint32_t l = 0; l < labels.size(); ++l) order[l] = l, bound[l] = detail::score_bound(labels[l]);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return bound[a] > bound[b]; });
+    detail::sort_by(order, [&](std::uint32_t label) { return detail::falling(bound[label]); });
 
     std::vector<MeanShiftMemory<Dimension, Search>> memory(pool.size());
     std::vector<SupportedMode<Dimension>> strongest;
