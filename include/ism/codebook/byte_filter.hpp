@@ -35,6 +35,7 @@ public:
         double error = 0, length = 0;      // the largest |e| and |d' − c|
     };
 
+    ByteFilter() = default;
     ByteFilter(std::span<const float> words, std::span<const float> mean_sq_length, std::size_t dimension,
                InstructionSet isa);
 

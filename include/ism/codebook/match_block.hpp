@@ -9,8 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <tuple>
-#include <variant>
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
@@ -33,7 +31,10 @@ public:
     [[nodiscard]] std::vector<Match> match(const Descriptors<float>& descriptors, std::size_t first) {
         load(descriptors, first);
         hits_.clear();
-        std::visit([&](const auto& filter) { search(filter); }, index_->filter());
+        if (index_->uses_bytes())
+            search(index_->byte_filter(), byte_block_);
+        else
+            search(index_->float_filter(), float_block_);
         return matches();
     }
 
@@ -73,8 +74,7 @@ private:
 
     /// Finds all words within the threshold.
     template <CandidateFilter Filter>
-    void search(const Filter& filter) {
-        auto& block = std::get<typename Filter::Block>(blocks_);
+    void search(const Filter& filter, typename Filter::Block& block) {
         filter.prepare(rows_, sq_lengths_, index_->max_sq_distance(), block);
         std::array<std::uint64_t, filter_block> masks{};
         const std::span used(masks.data(), (count_ + filter_tile - 1) / filter_tile * filter_tile);
@@ -124,7 +124,8 @@ private:
     std::size_t first_ = 0, count_ = 0;
     std::vector<float> rows_;
     std::vector<double> sq_lengths_;
-    std::tuple<FloatFilter::Block, ByteFilter::Block> blocks_;
+    FloatFilter::Block float_block_;
+    ByteFilter::Block byte_block_;
     std::vector<Hit> hits_, sorted_;  // by 64 words and descriptor; by descriptor
     std::vector<OfGroup> of_group_;   // empty between descriptors
 };

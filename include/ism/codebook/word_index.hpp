@@ -7,8 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include "ism/codebook/byte_filter.hpp"
@@ -44,11 +42,12 @@ public:
         }
         number_groups();
         // Bytes are faster where their rounding is small beside the threshold.
-        detail::ByteFilter bytes(words_, mean_sq_lengths_, dimension_, isa);
-        if (bytes.slack() < max_sq_distance_ / 4)
-            filter_ = std::move(bytes);
-        else
-            filter_ = detail::FloatFilter(words_, mean_sq_lengths_, dimension_, isa);
+        byte_filter_ = detail::ByteFilter(words_, mean_sq_lengths_, dimension_, isa);
+        uses_bytes_ = byte_filter_.slack() < max_sq_distance_ / 4;
+        if (!uses_bytes_) {
+            byte_filter_ = {};
+            float_filter_ = detail::FloatFilter(words_, mean_sq_lengths_, dimension_, isa);
+        }
     }
 
     /// @brief Number of words.
@@ -72,8 +71,10 @@ public:
                2 * dot_(descriptor, words_.data() + word * dimension_, dimension_);
     }
 
-    /// @brief What tells candidates: detail::ByteFilter or detail::FloatFilter.
-    [[nodiscard]] const auto& filter() const { return filter_; }
+    /// @brief Which of the two filters tells candidates; the other is empty.
+    [[nodiscard]] bool uses_bytes() const { return uses_bytes_; }
+    [[nodiscard]] const detail::ByteFilter& byte_filter() const { return byte_filter_; }
+    [[nodiscard]] const detail::FloatFilter& float_filter() const { return float_filter_; }
 
 private:
     /// Groups by number of those that have words.
@@ -92,7 +93,9 @@ private:
     std::size_t dimension_ = 0, group_count_ = 0;
     double max_sq_distance_ = 0;
     detail::Dot<float>* dot_ = nullptr;
-    std::variant<detail::FloatFilter, detail::ByteFilter> filter_;
+    bool uses_bytes_ = false;
+    detail::ByteFilter byte_filter_;
+    detail::FloatFilter float_filter_;
 };
 
 }  // namespace ism

@@ -71,21 +71,29 @@ struct SetParameters {
             std::find_if(list.begin(), list.end(), [&](const Parameter& p) { return p.name == name; });
         expect(found != list.end(), lazy_text(part, ": parameter"), name, "none of this name");
         ++count;
-        const bool fits = std::visit([&](const auto& given) { return set(value, given); }, found->value);
-        expect(fits, lazy_text(part, ": ", name), "a value of its kind", "another");
+        expect(set(value, *found), lazy_text(part, ": ", name), "a value of its kind", "another");
     }
 
-    template <class T, class Given>
-    [[nodiscard]] static bool set(T& value, const Given& given) {
-        bool fits = std::same_as<T, bool> == std::same_as<Given, bool>;
-        if constexpr (std::integral<T> && !std::same_as<T, bool> && std::same_as<Given, std::int64_t>)
-            fits = std::in_range<T>(given);
-        else if constexpr (std::integral<T> && std::floating_point<Given>)
-            fits = false;
-        else if constexpr (std::floating_point<T>)
-            fits = fits && std::abs(double(given)) <= double(std::numeric_limits<T>::max());
-        if (fits) value = static_cast<T>(given);
-        return fits;
+    /// Whether the parameter fits; a whole number does for a real one too.
+    template <class T>
+    [[nodiscard]] static bool set(T& value, const Parameter& given) {
+        const bool* const flag = std::get_if<bool>(&given.value);
+        const std::int64_t* const whole = std::get_if<std::int64_t>(&given.value);
+        const double* const real = std::get_if<double>(&given.value);
+        if constexpr (std::same_as<T, bool>) {
+            if (flag != nullptr) value = *flag;
+            return flag != nullptr;
+        } else if constexpr (std::integral<T>) {
+            const bool fits = whole != nullptr && std::in_range<T>(*whole);
+            if (fits) value = static_cast<T>(*whole);
+            return fits;
+        } else {
+            if (flag != nullptr) return false;
+            const double number = whole != nullptr ? double(*whole) : *real;
+            const bool fits = std::abs(number) <= double(std::numeric_limits<T>::max());
+            if (fits) value = static_cast<T>(number);
+            return fits;
+        }
     }
 };
 
