@@ -51,7 +51,7 @@ template <Rescorer R, Segmenter S, Verifier V>
     hypotheses = rescorer.rescore(std::move(hypotheses), scene);
     sort_by(hypotheses, strongest_first);
     stats.candidates = hypotheses.size();
-    if (hypotheses.size() > options.max_hypotheses) hypotheses.resize(options.max_hypotheses);
+    while (hypotheses.size() > options.max_hypotheses) hypotheses.pop_back();
     for (Detection& hypothesis : hypotheses)
         hypothesis.probability =
             scene.model.calibration.probability(hypothesis.class_index, hypothesis.score);
@@ -67,9 +67,9 @@ template <Rescorer R, Segmenter S, Verifier V>
         result.objects.back().score = verified.score;
     }
     sort_by(result.objects, strongest_first);
-    std::erase_if(result.objects, [&](const Detection& object) {
-        return object.score < options.min_relative_score * result.objects.front().score;
-    });
+    while (!result.objects.empty() &&
+           result.objects.back().score < options.min_relative_score * result.objects.front().score)
+        result.objects.pop_back();
     stats.verify_ms = watch.lap_ms();
     result.features = std::move(scene.features);
     result.stats = stats;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ism/core/error.hpp"
@@ -38,11 +38,9 @@ void keep_strongest(std::vector<SupportedMode<Dimension>>& modes, std::size_t ma
                     double min_relative_score) {
     sort_by(modes, [](const auto& mode) { return mode.label; });
     sort_by(modes, [](const auto& mode) { return falling(mode.score); });
-    std::size_t count = 0;
-    while (count < std::min(max_count, modes.size()) &&
-           modes[count].score >= min_relative_score * modes.front().score)
-        ++count;
-    modes.resize(count);
+    while (!modes.empty() &&
+           (modes.size() > max_count || modes.back().score < min_relative_score * modes.front().score))
+        modes.pop_back();
 }
 
 /// At most what all votes of a label weigh together, a bit more than any score of theirs, which is a sum in
@@ -97,8 +95,7 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search = VoteGr
                     found[i].push_back({mode, support_of<K>(own.search, mode)});
         });
         for (auto& modes : found)
-            strongest.insert(strongest.end(), std::move_iterator(modes.begin()),
-                             std::move_iterator(modes.end()));
+            for (auto& mode : modes) strongest.push_back(std::move(mode));
         detail::keep_strongest(strongest, max_count, min_relative_score);
         if (count < std::min(at_once, labels.size() - first)) break;
     }
