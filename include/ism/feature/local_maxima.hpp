@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "ism/core/image.hpp"
@@ -55,29 +55,33 @@ struct SubPixel {
 }
 
 /// The features of all lists, from small scales to large, each octave of scales from top to bottom, without
-/// repetitions: the same however they are spread over the lists, which are sorted.
-[[nodiscard]] inline std::vector<Feature> in_order(std::span<std::vector<Feature>> lists,
+/// repetitions: the same however they are spread over the lists.
+[[nodiscard]] inline std::vector<Feature> in_order(std::span<const std::vector<Feature>> lists,
                                                    Workspace& workspace) {
-    const auto less = [](const Feature& a, const Feature& b) {
-        const auto octave_a = std::bit_cast<std::uint32_t>(a.scale) >> 23,
-                   octave_b = std::bit_cast<std::uint32_t>(b.scale) >> 23;
-        if (octave_a != octave_b) return octave_a < octave_b;
-        return std::tie(a.y, a.x, a.scale, a.strength) < std::tie(b.y, b.x, b.scale, b.strength);
-    };
-    workspace.pool().for_each(
-        lists.size(), [&](std::size_t i, unsigned) { std::sort(lists[i].begin(), lists[i].end(), less); });
-    std::vector<Feature> all = workspace.empty_list(), other = workspace.empty_list();
-    for (const std::vector<Feature>& list : lists) {
-        other.clear();
-        std::merge(all.begin(), all.end(), list.begin(), list.end(), std::back_inserter(other), less);
-        std::swap(all, other);
+    std::vector<Feature> found = workspace.empty_list(), all = workspace.empty_list();
+    for (const std::vector<Feature>& list : lists)
+        for (const Feature& f : list) found.push_back(f);
+    const auto order = workspace.ranked(found.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        order[i] = {joined(std::bit_cast<std::uint32_t>(found[i].scale) >> 23, rising(found[i].y)), i};
+    sort_ranked(order);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        all.push_back(found[order[i].index]);
+        // few are of one octave and one row
+        for (std::size_t k = i; k > 0 && order[k - 1].key == order[i].key; --k) {
+            Feature &before = all[k - 1], &after = all[k];
+            if (std::tie(before.x, before.scale, before.strength) <=
+                std::tie(after.x, after.scale, after.strength))
+                break;
+            std::swap(before, after);
+        }
     }
-    workspace.reuse(std::move(other));
-    all.erase(std::unique(all.begin(), all.end(),
-                          [&](const Feature& a, const Feature& b) {
-                              return a.y == b.y && a.x == b.x && a.scale == b.scale;
-                          }),
-              all.end());
+    workspace.reuse(std::move(found));
+    std::size_t kept = 0;
+    for (const Feature& f : all)
+        if (kept == 0 || f.y != all[kept - 1].y || f.x != all[kept - 1].x || f.scale != all[kept - 1].scale)
+            all[kept++] = f;
+    all.resize(kept);
     return all;
 }
 
