@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
+#include <thread>  // has the clocks; <chrono> would bring calendars and streams with them, 8 MB to compile
 #include <utility>
 
 #include "ism/config.hpp"
