@@ -65,29 +65,33 @@ struct BoxClassifier {
 [[nodiscard]] inline std::vector<SparseEntry> word_histogram(std::span<const Feature> features,
                                                              std::span<const Match> matches,
                                                              std::size_t words, const Box& box) {
-    std::vector<SparseEntry> bins;
+    std::vector<detail::Ranked> by_word;
+    std::vector<SparseEntry> quarters;  // of each match in the box the quarter and the weight
     double total = 0;
     for (std::size_t i = 0, end = 0; i < matches.size(); i = end) {  // the matches of a feature
         const Feature& f = features[matches[i].feature];
         while (end < matches.size() && matches[end].feature == matches[i].feature) ++end;
         const double u = (double(f.x) - box.x) / box.width, v = (double(f.y) - box.y) / box.height;
         if (!(u >= 0 && v >= 0 && u < 1 && v < 1)) continue;
-        const std::size_t quarter = 1 + std::size_t(u >= 0.5) + 2 * std::size_t(v >= 0.5);
+        const std::uint32_t quarter = 1 + std::uint32_t(u >= 0.5) + 2 * std::uint32_t(v >= 0.5);
         for (const Match& match : matches.subspan(i, end - i)) {
-            bins.push_back({match.word, match.weight});
-            bins.push_back({static_cast<std::uint32_t>(quarter * words + match.word), match.weight});
+            by_word.push_back({match.word, static_cast<std::uint32_t>(by_word.size())});
+            quarters.push_back({quarter, match.weight});
             total += 2 * double(match.weight);
         }
     }
-    detail::sort_by(bins, [](const SparseEntry& bin) { return bin.index; });
-    std::size_t count = 0;
-    for (const SparseEntry& bin : bins) {
-        if (count > 0 && bins[count - 1].index == bin.index)
-            bins[count - 1].value += bin.value;
-        else
-            bins[count++] = bin;
-    }
-    bins.resize(count);
+    detail::sort_ranked(by_word);
+    std::vector<SparseEntry> bins;
+    for (std::uint32_t cell = 0; cell < BoxClassifier::cells; ++cell)
+        for (const detail::Ranked& word : by_word) {
+            const auto& [quarter, weight] = quarters[word.index];
+            if (cell != 0 && cell != quarter) continue;
+            const auto bin = static_cast<std::uint32_t>(cell * words + word.key);
+            if (bins.empty() || bins.back().index != bin)
+                bins.push_back({bin, weight});
+            else
+                bins.back().value += weight;
+        }
     for (SparseEntry& bin : bins) bin.value = static_cast<float>(std::sqrt(bin.value / total));
     return bins;
 }
