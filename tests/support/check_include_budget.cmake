@@ -7,7 +7,7 @@ cmake_minimum_required(VERSION 3.22)
 #   header | headers of ours it may reach | libraries it may reach (of those below)
 set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "iostream" "regex")
 set(budget
-    "ism.hpp                    | 125 | "
+    "ism.hpp                    | 127 | "
     "vote/axes.hpp              |  13 | "
     "detect/detect.hpp          |  84 | "
     "train/train_options.hpp    |   6 | "
