@@ -17,10 +17,10 @@ namespace {
 const ism::Feature feature{.x = 100, .y = 50, .scale = 6, .depth_m = 1.5f};
 const ism::Occurrence occurrence{.x = 20, .y = -10, .scale = 3, .class_index = 4};
 
-const ism::TrainingObject object{.width = 200, .height = 200};
+const ism::TrainingObject training_object{.width = 200, .height = 200};
 
 ism::VoteSource source() {
-    return {feature, occurrence, object, nullptr, ism::placement(feature, occurrence)};
+    return {feature, occurrence, training_object, nullptr, ism::placement(feature, occurrence)};
 }
 
 ism::ShapeModel two_words() {
