@@ -19,6 +19,18 @@ struct Frame {
     std::optional<Camera> camera = {};
 };
 
+/// @brief The colours of a frame; those of a grey one are its brightness in 8 bits.
+[[nodiscard]] inline RgbImage colors_of(const Frame& frame) {
+    if (!frame.color.empty()) return frame.color;
+    RgbImage color(frame.gray.width(), frame.gray.height());
+    std::transform(frame.gray.pixels().begin(), frame.gray.pixels().end(), color.pixels().begin(),
+                   [](float gray) {
+                       const auto byte = static_cast<std::uint8_t>(255 * std::clamp(gray, 0.0f, 1.0f) + 0.5f);
+                       return Rgb{byte, byte, byte};
+                   });
+    return color;
+}
+
 /// @brief Validates the sizes of `frame`, that its depth has readings, and its camera. The brightness itself
 /// is validated where features are extracted.
 /// @throws Error where the image is smaller than 16×16, colour or depth is of another size, the depth is

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ism/core/geometry.hpp"
+#include "ism/core/order.hpp"
+#include "ism/core/thread_pool.hpp"
+#include "ism/hog/hog_pyramid.hpp"
+#include "ism/hog/search_box.hpp"
+
+namespace ism {
+
+/// @brief Whether of two boxes one has to go: they overlap by an IoU above 0.4, or more than half of the
+/// weaker lies within the stronger.
+[[nodiscard]] inline bool overlaps(const Box& stronger, const Box& weaker) {
+    return iou(stronger, weaker) > 0.4 || intersection(stronger, weaker).area() > 0.5 * weaker.area();
+}
+
+/// @brief A box that may show an object, of the class that its votes speak for.
+struct ProposedBox {
+    std::uint32_t class_index = 0;
+    Box box;
+};
+
+/// @brief The best boxes, best first, of which no two overlap by an IoU above 0.7.
+[[nodiscard]] inline std::vector<SearchedBox> best_apart(std::vector<SearchedBox> boxes,
+                                                         std::size_t max_count) {
+    detail::sort_by(boxes, [](const SearchedBox& box) { return detail::falling(box.score); });
+    std::vector<SearchedBox> kept;
+    for (const SearchedBox& box : boxes) {
+        if (kept.size() == max_count) break;
+        if (std::none_of(kept.begin(), kept.end(),
+                         [&](const SearchedBox& k) { return iou(k.box, box.box) > 0.7; }))
+            kept.push_back(box);
+    }
+    return kept;
+}
+
+/// @brief The boxes of a class, best first, that a template finds from proposals: each is asked at its own
+/// place in three sizes, those of other classes with the aspect of this; the best that are apart are then
+/// searched.
+[[nodiscard]] inline std::vector<SearchedBox> propose_boxes(const TemplateScorer& scorer,
+                                                            std::uint32_t class_index,
+                                                            const HogPyramid& pyramid,
+                                                            std::span<const ProposedBox> proposals,
+                                                            std::size_t max_count, ThreadPool& pool) {
+    constexpr std::array factors{0.8, 1.1, 1.5};
+    std::vector<CellScratch> scratch(pool.size());
+    std::vector<SearchedBox> starts(proposals.size() * factors.size());
+    pool.for_each(proposals.size(), [&](std::size_t i, unsigned worker) {
+        const ProposedBox& proposal = proposals[i];
+        double width = proposal.box.width, height = proposal.box.height;
+        const double x = proposal.box.x + width / 2, y = proposal.box.y + height / 2;
+        if (proposal.class_index != class_index) {
+            const double side = std::sqrt(width * height),
+                         root = std::exp(scorer.box_template().log_aspect / 2);
+            width = side * root, height = side / root;
+        }
+        for (std::size_t k = 0; k < factors.size(); ++k) {
+            const double w = factors[k] * width, h = factors[k] * height;
+            const Box box{x - w / 2, y - h / 2, w, h};
+            const auto score = scorer(pyramid, box, scratch[worker]);
+            starts[i * factors.size() + k] = {box, score.value, score.mirrored};
+        }
+    });
+    starts = best_apart(std::move(starts), max_count);
+    pool.for_each(starts.size(), [&](std::size_t i, unsigned worker) {
+        starts[i] = search_box(scorer, pyramid, starts[i], scratch[worker]);
+    });
+    return best_apart(std::move(starts), max_count);  // some have come together
+}
+
+/// @brief The finest level of a pyramid that templates of about `cells` cells need for these boxes.
+[[nodiscard]] inline int finest_level(std::span<const ProposedBox> boxes, double cells = 100) {
+    double least = 1e9;
+    for (const ProposedBox& b : boxes) least = std::min(least, std::sqrt(b.box.area() / cells));
+    return boxes.empty()
+               ? 0
+               : std::clamp(int(std::lround(2 * std::log2(std::max(0.1, least) / 8))), HogPyramid::finest, 6);
+}
+
+}  // namespace ism

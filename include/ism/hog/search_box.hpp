@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ism/core/geometry.hpp"
+#include "ism/hog/box_template.hpp"
+#include "ism/hog/describe_cells.hpp"
+#include "ism/hog/hog_pyramid.hpp"
+
+namespace ism {
+
+/// @brief A template ready to judge boxes, on both sides.
+class TemplateScorer {
+public:
+    struct Score {
+        double value = 0;
+        bool mirrored = false;
+    };
+
+    /// @param from  has to stay as long as this
+    explicit TemplateScorer(const BoxTemplate& from)
+        : template_(&from), mirrored_(mirrored_cells(from.weights, from.grid)) {}
+
+    [[nodiscard]] const BoxTemplate& box_template() const { return *template_; }
+    [[nodiscard]] Score operator()(const HogPyramid& pyramid, const Box& box, CellScratch& scratch) const {
+        const std::span<const float> cells = described(pyramid, box, scratch);
+        const double plain = dot(cells, template_->weights), other = dot(cells, mirrored_);
+        return {std::max(plain, other) + template_->bias - template_->aspect_penalty(box), other > plain};
+    }
+    [[nodiscard]] double of_side(const HogPyramid& pyramid, const Box& box, bool mirrored,
+                                 CellScratch& scratch) const {
+        return dot(described(pyramid, box, scratch), mirrored ? mirrored_ : template_->weights) +
+               template_->bias - template_->aspect_penalty(box);
+    }
+
+private:
+    [[nodiscard]] std::span<const float> described(const HogPyramid& pyramid, const Box& box,
+                                                   CellScratch& scratch) const {
+        scratch.cells.resize(template_->weights.size());
+        describe_cells(pyramid, box, template_->grid, scratch.cells, scratch);
+        return scratch.cells;
+    }
+    [[nodiscard]] static double dot(std::span<const float> a, std::span<const float> b) {
+        std::array<float, 16> sums{};
+        const std::size_t whole = a.size() / 16 * 16;
+        for (std::size_t k = 0; k < whole; k += 16)
+            for (std::size_t l = 0; l < 16; ++l) sums[l] += a[k + l] * b[k + l];
+        double sum = 0;
+        for (const float s : sums) sum += s;
+        for (std::size_t k = whole; k < a.size(); ++k) sum += a[k] * b[k];
+        return sum;
+    }
+
+    const BoxTemplate* template_;
+    std::vector<float> mirrored_;
+};
+
+struct SearchedBox {
+    Box box;
+    double score = 0;
+    bool mirrored = false;
+};
+
+/// @brief Moves a box to where the template fits best nearby: ten moves of its place and sides, in steps of
+/// .16, .16, .08, .08 and .04 of the side, the best of which is taken where it gains.
+[[nodiscard]] inline SearchedBox search_box(const TemplateScorer& scorer, const HogPyramid& pyramid,
+                                            SearchedBox at, CellScratch& scratch) {
+    struct Move {
+        double x, y, width, height;
+    };
+    static constexpr Move moves[] = {{1, 0, 0, 0},     {-1, 0, 0, 0},    {0, 1, 0, 0},   {0, -1, 0, 0},
+                                     {-.5, -.5, 1, 1}, {.5, .5, -1, -1}, {-.5, 0, 1, 0}, {.5, 0, -1, 0},
+                                     {0, -.5, 0, 1},   {0, .5, 0, -1}};
+    for (const double step : {0.16, 0.16, 0.08, 0.08, 0.04}) {
+        SearchedBox best = at;
+        for (const Move& m : moves) {
+            const double w = at.box.width * step, h = at.box.height * step;
+            const Box box{at.box.x + m.x * w, at.box.y + m.y * h, at.box.width + m.width * w,
+                          at.box.height + m.height * h};
+            if (const double score = scorer.of_side(pyramid, box, at.mirrored, scratch); score > best.score)
+                best.box = box, best.score = score;
+        }
+        at = best;
+    }
+    return at;
+}
+
+}  // namespace ism
