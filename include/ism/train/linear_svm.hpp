@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "ism/core/random.hpp"
+
+namespace ism {
+
+/// @brief A linear classifier: positive where weights · x + bias is above 0.
+struct LinearClassifier {
+    std::vector<float> weights;
+    double bias = 0;
+};
+
+struct LinearSvmOptions {
+    double cost = 0.05;        ///< C: what an example costs that lies within the margin
+    double positive_cost = 1;  ///< how many times more a positive one costs
+    double bias_scale = 10;    ///< the constant feature that the bias is the weight of
+    double tolerance = 0.01;   ///< of the gradients' spread, for an end
+    int max_rounds = 300;      ///< over all examples
+};
+
+/// @brief Fits a linear support vector machine with squared hinge loss by dual coordinate descent (Hsieh,
+/// Chang, Lin, Keerthi and Sundararajan 2008, algorithm 1 with shrinking).
+/// @param rows      `dimension` numbers an example
+/// @param positive  of each row
+[[nodiscard]] inline LinearClassifier fit_linear_svm(std::span<const float> rows, std::size_t dimension,
+                                                     std::span<const std::uint8_t> positive,
+                                                     const LinearSvmOptions& options = {}) {
+    const std::size_t count = positive.size();
+    const auto dot = [&](const float* a, const float* b) {
+        std::array<float, 16> sums{};
+        std::size_t k = 0;
+        for (; k + 16 <= dimension; k += 16)
+            for (std::size_t l = 0; l < 16; ++l) sums[l] += a[k + l] * b[k + l];
+        double sum = 0;
+        for (const float s : sums) sum += s;
+        for (; k < dimension; ++k) sum += a[k] * b[k];
+        return sum;
+    };
+    std::vector<double> alpha(count, 0), diagonal(count), softness(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        softness[i] = 0.5 / (options.cost * (positive[i] ? options.positive_cost : 1));
+        diagonal[i] = dot(&rows[i * dimension], &rows[i * dimension]) +
+                      options.bias_scale * options.bias_scale + softness[i];
+    }
+    LinearClassifier fit{.weights = std::vector<float>(dimension, 0)};
+    double bias_weight = 0;
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::size_t active = count;
+    double upper = std::numeric_limits<double>::infinity();
+    Random random(1);
+    for (int round = 0; round < options.max_rounds; ++round) {
+        for (std::size_t i = 0; i < active; ++i)
+            std::swap(
+                order[i],
+                order[i + std::min(active - i - 1, std::size_t(random.uniform() * double(active - i)))]);
+        double most = -std::numeric_limits<double>::infinity(),
+               least = std::numeric_limits<double>::infinity();
+        for (std::size_t s = 0; s < active; ++s) {
+            const std::uint32_t i = order[s];
+            const double sign = positive[i] ? 1 : -1;
+            const float* x = &rows[i * dimension];
+            const double gradient = sign * (dot(fit.weights.data(), x) + bias_weight * options.bias_scale) -
+                                    1 + softness[i] * alpha[i];
+            double projected = gradient;
+            if (alpha[i] == 0) {
+                if (gradient > upper) {
+                    std::swap(order[s--], order[--active]);
+                    continue;
+                }
+                projected = std::min(0.0, gradient);
+            }
+            most = std::max(most, projected), least = std::min(least, projected);
+            if (std::abs(projected) < 1e-12) continue;
+            const double before = alpha[i];
+            alpha[i] = std::max(0.0, alpha[i] - gradient / diagonal[i]);
+            const double change = (alpha[i] - before) * sign;
+            for (std::size_t k = 0; k < dimension; ++k) fit.weights[k] += float(change) * x[k];
+            bias_weight += change * options.bias_scale;
+        }
+        if (most - least <= options.tolerance) {
+            if (active == count) break;
+            active = count, upper = std::numeric_limits<double>::infinity();
+            continue;
+        }
+        upper = most > 0 ? most : std::numeric_limits<double>::infinity();
+    }
+    fit.bias = bias_weight * options.bias_scale;
+    return fit;
+}
+
+}  // namespace ism
