@@ -26,8 +26,8 @@ inline constexpr std::array<std::string_view, 2> descriptor_names = {"sift", "ro
 inline constexpr std::string_view default_detector = "hessian-laplace";
 inline constexpr std::string_view default_descriptor = "root-sift";
 inline constexpr std::string_view default_space = "jism";
-inline constexpr std::string_view default_rescorer = "boxes";
-inline constexpr std::string_view default_verifier = "mdl";
+inline constexpr std::string_view default_rescorer = "auto";
+inline constexpr std::string_view default_verifier = "auto";
 
 struct TrainCommand {
     std::filesystem::path data, model;
@@ -37,6 +37,7 @@ struct TrainCommand {
     bool skip_bad = false;
     std::filesystem::path add_to = {};     ///< model that learns more; empty = a new one
     std::string best_words = "agreement";  ///< what TrainOptions::selection goes by
+    bool templates = true;  ///< also learn a template of each class
     bool growable = false;                 ///< keep the training features, for add_to
 };
 

@@ -79,6 +79,8 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
                    "of more features a random part is clustered; all are matched")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    app.add_flag("!--no-templates", command.templates,
+                 "learn no template of each class, only votes and words");
     app.add_option("--seed", command.options.codebook.seed, "of random choices")->capture_default_str();
     CLI::Option* add_to =
         app.add_option("--add-to", command.add_to,
@@ -123,11 +125,15 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
         ->check(CLI::Range(0.0, 1.0))
         ->default_str(ism::join_text(ism::DetectOptions{}.min_relative_score));
     app.add_option("--rescore", command.search.rescorer,
-                   "what judges hypotheses beside their votes: the words in their boxes, or nothing")
-        ->check(CLI::IsMember({"boxes", "none"}))
+                   "what judges hypotheses beside their votes: a template of each class, the words in their "
+                   "boxes, or nothing; auto: templates where the model has them, else words")
+        ->check(CLI::IsMember({"auto", "template", "boxes", "none"}))
         ->capture_default_str();
-    app.add_option("--verify", command.search.verifier, "how overlapping hypotheses are sorted out")
-        ->check(CLI::IsMember({"mdl", "nms"}))
+    app.add_option(
+           "--verify", command.search.verifier,
+           "how overlapping hypotheses are sorted out: by their masks, or by their boxes; auto: boxes where "
+           "templates judge, else masks")
+        ->check(CLI::IsMember({"auto", "mdl", "nms"}))
         ->capture_default_str();
     app.add_option("--overlay", command.overlay_folder, "folder for pictures of what was found and why");
     app.add_option("--report", command.report, "HTML page to write");

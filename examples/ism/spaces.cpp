@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "ism/detect/recognition.hpp"
+#include "ism/detect/template_score.hpp"
 
 namespace program {
 
@@ -14,10 +16,12 @@ namespace {
 
 /// A rescorer chosen at run time.
 struct ChosenRescorer {
-    bool boxes = true;
+    enum class Kind { none, boxes, templates } kind = Kind::none;
     [[nodiscard]] std::vector<ism::Detection> rescore(std::vector<ism::Detection> hypotheses,
                                                       const ism::Scene& scene) const {
-        return boxes ? ism::BoxClassifierScore{}.rescore(std::move(hypotheses), scene) : hypotheses;
+        if (kind == Kind::boxes) return ism::BoxClassifierScore{}.rescore(std::move(hypotheses), scene);
+        if (kind == Kind::templates) return ism::TemplateScore{}.rescore(std::move(hypotheses), scene);
+        return hypotheses;
     }
 };
 
@@ -26,7 +30,8 @@ struct ChosenVerifier {
     bool suppression = false;
     [[nodiscard]] std::vector<ism::Verified> verify(std::span<const ism::Detection> hypotheses,
                                                     const ism::Scene& scene) const {
-        return suppression ? ism::NonMaximumSuppression{}.verify(hypotheses, scene)
+        return suppression ? ism::NonMaximumSuppression{.max_inside = 0.5, .across_classes = false}.verify(
+                                 hypotheses, scene)
                            : ism::Mdl{}.verify(hypotheses, scene);
     }
 };
@@ -35,9 +40,21 @@ template <ism::VoteSpaceType Space>
 ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
     ism::Recognition<Space, ism::EpanechnikovKernel, ChosenRescorer, ism::PatchSegmenter, ChosenVerifier>
         recognition;
-    recognition.options.min_relative_score = search.keep.value_or(recognition.options.min_relative_score);
-    recognition.rescorer.boxes = search.rescorer == "boxes";
-    recognition.verifier.suppression = search.verifier == "nms";
+    // Templates judge what votes propose, also weakly, and place boxes that are apart; words judge what votes
+    // are sure of.
+    const bool templates =
+        search.rescorer == "template" || (search.rescorer == "auto" && !scene.model.templates.empty());
+    ism::expect(!templates || !scene.model.templates.empty(), "--rescore template", "a model with templates",
+                "one without");
+    using Kind = ChosenRescorer::Kind;
+    recognition.rescorer.kind = templates                   ? Kind::templates
+                                : search.rescorer == "none" ? Kind::none
+                                                            : Kind::boxes;
+    recognition.verifier.suppression = search.verifier == "nms" || (search.verifier == "auto" && templates);
+    if (templates)
+        recognition.options.max_size_px = std::hypot(scene.frame.gray.width(), scene.frame.gray.height());
+    recognition.options.min_relative_score =
+        search.keep.value_or(templates ? 0.01 : recognition.options.min_relative_score);
     return ism::recognise(std::move(scene), recognition);
 }
 

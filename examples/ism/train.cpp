@@ -13,6 +13,7 @@
 #include "ism/model_file/model_file.hpp"
 #include "ism/train/extract_training_features.hpp"
 #include "ism/train/learn.hpp"
+#include "ism/train/learn_templates.hpp"
 #include "ism/train/vote_agreement.hpp"
 
 namespace program {
@@ -23,6 +24,7 @@ namespace {
 struct Known {
     ism::TrainingFeatures features;
     std::vector<ism::AnyExtractor> extractors;
+    bool templates = false;
 };
 
 /// The lessons of a model, and the options that it was learnt with.
@@ -35,7 +37,7 @@ Known lessons_of(const std::filesystem::path& path, ism::TrainOptions& options) 
     if (std::any_of(groups.begin(), groups.end(), [](std::uint32_t group) { return group > 0; }))
         options.codebook.kind = ism::CodebookKind::per_class;
     options.features.choose_upsampling = false;
-    return {ism::load_training_features(path), extractors_of(model)};
+    return {ism::load_training_features(path), extractors_of(model), !model.templates.empty()};
 }
 
 ism::WordWorth worth_of(const std::string& measure) {
@@ -65,6 +67,8 @@ void run_train(const TrainCommand& command) {
     ism::check(options);
     std::optional<Known> known;
     if (!command.add_to.empty()) known = lessons_of(command.add_to, options);
+    const bool templates = command.templates && (!known || known->templates);
+    options.features.pixels = templates;
     ism::Dataset dataset = ism::read_dataset(command.data);
     if (!command.classes.empty()) dataset = ism::select_classes(dataset, command.classes);
     const std::size_t skipped =
@@ -84,7 +88,9 @@ void run_train(const TrainCommand& command) {
         ism::extract_training_features(dataset.class_names, named_images(dataset), extractors,
                                        options.features, options.threads, options.progress);
     if (known) features = ism::append(std::move(known->features), std::move(features));
-    const ism::Model model = ism::learn(features, options);
+    ism::Model model = ism::learn(features, options);
+    if (templates)
+        model = ism::learn_templates(std::move(model), features, {}, options.threads, options.progress);
     ism::save_model(command.model, model, command.growable || known ? &features : nullptr);
     progress.clear();
 

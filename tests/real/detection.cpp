@@ -13,9 +13,11 @@
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/detect/detect.hpp"
+#include "ism/detect/template_score.hpp"
 #include "ism/evaluate/detections.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
+#include "ism/train/learn_templates.hpp"
 #include "ism/train/train.hpp"
 
 namespace {
@@ -53,6 +55,29 @@ TEST_CASE("weizmann-horses: masks and detection") {
     const auto result = evaluated<ism::Jism>(trained_on(ism::read_dataset(*train)), ism::read_dataset(*val));
     CHECK(result.mean.mask_iou >= 0.6);
     CHECK(result.mean.eer >= 0.83);
+}
+
+TEST_CASE("weizmann-horses: votes propose, templates judge and place") {
+    const auto train = ism::test::find_data("weizmann-horses/train.json");
+    const auto val = ism::test::find_data("weizmann-horses/val.json");
+    if (!train || !val) return;
+    const auto data = ism::read_dataset(*train), test = ism::read_dataset(*val);
+    const auto features = ism::extract_training_features(
+        data.class_names, ism::training_set(data), {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
+        {.mirror = false, .pixels = true});
+    const Model model(
+        ism::learn_templates(ism::learn(features, {.box_classifier = {}, .calibrate = false}), features));
+    const ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::TemplateScore, ism::PatchSegmenter,
+                           ism::NonMaximumSuppression>
+        recognition{.options = {.min_relative_score = 0.01, .max_size_px = 1e6},
+                    .verifier = {.max_inside = 0.5}};
+    std::vector<ism::Detections> found(test.images.size());
+    ism::parallel_for(test.images.size(), 0, [&](std::size_t i) {
+        found[i] = ism::detect(model, ism::read_frame(test.images[i]), recognition, 1);
+    });
+    const auto result = ism::evaluate(test, found, ism::IouRule{});
+    CHECK(result.mean.ap >= 0.94);
+    CHECK(result.mean.eer >= 0.92);
 }
 
 TEST_CASE("four-class: classification by the joint model") {

@@ -67,6 +67,14 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
         model.box_classifier.push_back(weights, number());
     }
     model.calibration.curves = {{1.25, -3}, {0.1, 1.0 / 3}};
+    for (const bool ring : {true, false}) {
+        ism::BoxTemplate one{
+            .grid = {3, 2, ring}, .bias = number(), .log_aspect = number(), .log_aspect_spread = 0.25f};
+        for (std::size_t k = 0; k < one.grid.cells() * ism::cell_numbers; ++k)
+            one.weights.push_back(number());
+        model.templates.push_back(one);
+    }
+    model.template_calibration.curves = {{2, -1}, {1.0 / 7, 0}};
     model.training = {12, 3456, 789};
     return model;
 }
@@ -94,6 +102,8 @@ void check_equal(const ism::Model& a, const ism::Model& b) {
     CHECK(a.box_classifier.weights == b.box_classifier.weights);
     CHECK(a.box_classifier.bias == b.box_classifier.bias);
     CHECK(a.calibration.curves == b.calibration.curves);
+    CHECK(a.templates == b.templates);
+    CHECK(a.template_calibration.curves == b.template_calibration.curves);
     CHECK(a.training == b.training);
     REQUIRE(a.shapes.objects.size() == b.shapes.objects.size());
     for (std::size_t i = 0; i < a.shapes.objects.size(); ++i) {
@@ -219,6 +229,12 @@ TEST_CASE("A model that could not be read again is not written") {
     refuses("words with occurrences", [](ism::Model& m) { m.shapes.occurrences.push_back({}); });
     refuses("each once", [](ism::Model& m) { m.shapes.class_names[1] = "car"; });
     refuses("calibration", [](ism::Model& m) { m.calibration.curves.pop_back(); });
+    refuses("template_calibration", [](ism::Model& m) { m.template_calibration.curves.pop_back(); });
+    refuses("templates", [](ism::Model& m) { m.templates.pop_back(); });
+    refuses("template_weights", [](ism::Model& m) { m.templates[1].weights.pop_back(); });
+    refuses("template_grids", [](ism::Model& m) { m.templates[0].grid.rows = 0; });
+    refuses("spread of a template's aspect", [](ism::Model& m) { m.templates[0].log_aspect_spread = 0; });
+    refuses("finite", [](ism::Model& m) { m.templates[0].bias = std::nanf(""); });
 }
 
 TEST_CASE("A model file that was cut off or altered at any place is refused") {
@@ -296,7 +312,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {": class names: expected 1 or more", [](File& f) { f.metadata["class_names"] = "[]"; }},
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 6, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
+        {": format version: expected 7, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
         {": expected metadata 'channels'", [](File& f) { f.metadata.erase("channels"); }},
         {", channels: expected an array of 1 or more", [](File& f) { f.metadata["channels"] = "[]"; }},
         {", channels: dimension", [](File& f) { f.metadata["channels"] = "[{}]"; }},

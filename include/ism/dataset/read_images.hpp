@@ -20,7 +20,8 @@
 
 namespace ism {
 
-/// @brief Reads an image's brightness, its depth in metres where it has a depth file, and its camera.
+/// @brief Reads an image's brightness and colour, its depth in metres where it has a depth file, and its
+/// camera.
 /// @throws FileError, naming the file, where one cannot be read, is of another size than the data set says,
 /// is smaller than 16×16, or has no depth reading at all.
 [[nodiscard]] inline Frame read_frame(const DatasetImage& image) {
@@ -29,7 +30,7 @@ namespace ism {
             throw FileError(join_text(file_text(file), ": expected ", detail::sides_text(image),
                                       " pixels as its data set says, got ", size_text(pixels)));
     };
-    Frame frame{.gray = read_gray(image.file)};
+    Frame frame{.gray = read_gray(image.file), .color = read_rgb(image.file)};
     check_size(image.file, frame.gray);
     if (!image.depth_file.empty()) {
         const RawDepth raw = read_raw_depth(image.depth_file);

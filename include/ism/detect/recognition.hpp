@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -53,8 +54,9 @@ template <Rescorer R, Segmenter S, Verifier V>
     stats.candidates = hypotheses.size();
     while (hypotheses.size() > options.max_hypotheses) hypotheses.pop_back();
     for (Detection& hypothesis : hypotheses)
-        hypothesis.probability =
-            scene.model.calibration.probability(hypothesis.class_index, hypothesis.score);
+        if (std::isnan(hypothesis.probability))
+            hypothesis.probability =
+                scene.model.calibration.probability(hypothesis.class_index, hypothesis.score);
     stats.segmented = hypotheses.size();
     stats.rescore_ms = watch.lap_ms();
     scene.pool.for_each(hypotheses.size(), [&](std::size_t i, unsigned) {

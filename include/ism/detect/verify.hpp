@@ -33,6 +33,7 @@ concept Verifier = std::copyable<V> &&
 /// @brief Plain non-maximum suppression: of hypotheses whose boxes overlap the strongest stays.
 struct NonMaximumSuppression {
     double max_iou = 0.4;        ///< boxes that overlap more are of one object
+    double max_inside = 1;       ///< … or of which a larger part lies within the stronger
     bool across_classes = true;  ///< whether classes suppress each other
 
     /// @brief The hypotheses that stay, strongest first, with their scores unchanged.
@@ -45,7 +46,8 @@ struct NonMaximumSuppression {
             const bool free = std::none_of(kept.begin(), kept.end(), [&](const Verified& other) {
                 const Detection& rival = hypotheses[other.index];
                 return (across_classes || rival.class_index == own.class_index) &&
-                       iou(rival.box, own.box) > max_iou;
+                       (iou(rival.box, own.box) > max_iou ||
+                        intersection(rival.box, own.box).area() > max_inside * own.box.area());
             });
             if (free) kept.push_back(candidate);
         }
@@ -61,6 +63,8 @@ struct NonMaximumSuppression {
 inline void check(const NonMaximumSuppression& options) {
     expect(options.max_iou >= 0 && options.max_iou <= 1, "NonMaximumSuppression::max_iou", "0 ... 1",
            options.max_iou);
+    expect(options.max_inside >= 0 && options.max_inside <= 1, "NonMaximumSuppression::max_inside", "0 ... 1",
+           options.max_inside);
 }
 
 /// @brief What a set of hypotheses saves: each has its own savings, and each pair pays for what both claim.

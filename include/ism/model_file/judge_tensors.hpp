@@ -5,8 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "ism/hog/box_template.hpp"
 #include "ism/model/box_classifier.hpp"
 #include "ism/model/calibration.hpp"
 #include "ism/model_file/shape_tensors.hpp"
@@ -56,15 +60,17 @@ inline void box_classifier_to_tensors(const BoxClassifier& classifier, TensorFil
     return classifier;
 }
 
-inline void calibration_to_tensors(const Calibration& calibration, TensorFile& file) {
+inline void calibration_to_tensors(const Calibration& calibration, const std::string& name,
+                                   TensorFile& file) {
     std::vector<double> curves;
     for (const auto& [slope, offset] : calibration.curves) curves.insert(curves.end(), {slope, offset});
-    file.tensors["calibration"] = make_tensor<double>(curves, {calibration.curves.size(), 2});
+    file.tensors[name] = make_tensor<double>(curves, {calibration.curves.size(), 2});
 }
 
-[[nodiscard]] inline Calibration calibration_from_tensors(const TensorFile& file, std::size_t classes) {
-    const auto curves = values<double>(file, "calibration", {any_length, 2});
-    expect<FileError>(curves.empty() || curves.size() == 2 * classes, lazy_text(file.source, ": calibration"),
+[[nodiscard]] inline Calibration calibration_from_tensors(const TensorFile& file, const std::string& name,
+                                                          std::size_t classes) {
+    const auto curves = values<double>(file, name, {any_length, 2});
+    expect<FileError>(curves.empty() || curves.size() == 2 * classes, lazy_text(file.source, ": ", name),
                       lazy_text("0 or ", classes, " curves"), curves.size() / 2);
     Calibration calibration;
     for (std::size_t c = 0; 2 * c < curves.size(); ++c) {
@@ -74,6 +80,59 @@ inline void calibration_to_tensors(const Calibration& calibration, TensorFile& f
         calibration.curves.push_back({curves[2 * c], curves[2 * c + 1]});
     }
     return calibration;
+}
+
+/// The weights of all classes one after another; how many each has follows from its grid.
+inline void templates_to_tensors(std::span<const BoxTemplate> templates, TensorFile& file) {
+    std::vector<std::uint32_t> grids;
+    std::vector<float> numbers, all_weights;
+    for (const auto& [grid, bias, log_aspect, log_aspect_spread, weights] : templates) {
+        grids.insert(grids.end(),
+                     {std::uint32_t(grid.columns), std::uint32_t(grid.rows), std::uint32_t(grid.ring)});
+        numbers.insert(numbers.end(), {bias, log_aspect, log_aspect_spread});
+        all_weights.insert(all_weights.end(), weights.begin(), weights.end());
+    }
+    file.tensors["template_grids"] = make_tensor<std::uint32_t>(grids, {templates.size(), 3});
+    file.tensors["template_numbers"] = make_tensor<float>(numbers, {templates.size(), 3});
+    file.tensors["template_weights"] = make_tensor<float>(all_weights, {all_weights.size()});
+}
+
+[[nodiscard]] inline std::vector<BoxTemplate> templates_from_tensors(const TensorFile& file,
+                                                                     std::size_t classes) {
+    const auto grids = values<std::uint32_t>(file, "template_grids", {any_length, 3});
+    const auto numbers = values<float>(file, "template_numbers", {grids.size() / 3, 3});
+    const auto weights = values<float>(file, "template_weights", {any_length});
+    expect<FileError>(grids.empty() || grids.size() == 3 * classes, lazy_text(file.source, ": templates"),
+                      lazy_text("0 or ", classes), grids.size() / 3);
+    for (const auto& part : {numbers, weights})
+        for (const float number : part)
+            expect<FileError>(std::isfinite(number), lazy_text(file.source, ": templates"), "finite numbers",
+                              number);
+    std::vector<BoxTemplate> templates;
+    std::size_t first = 0;
+    for (std::size_t c = 0; 3 * c < grids.size(); ++c) {
+        const std::uint32_t* grid = grids.data() + 3 * c;
+        expect<FileError>(grid[0] >= 1 && grid[0] <= 1000 && grid[1] >= 1 && grid[1] <= 1000 && grid[2] <= 1,
+                          lazy_text(file.source, ": template_grids"),
+                          "1 ... 1000 columns and rows, a ring or none",
+                          lazy_text(grid[0], "x", grid[1], ", ", grid[2]));
+        expect<FileError>(numbers[3 * c + 2] > 0, lazy_text(file.source, ": spread of a template's aspect"),
+                          "above 0", numbers[3 * c + 2]);
+        BoxTemplate one{.grid = {int(grid[0]), int(grid[1]), grid[2] != 0},
+                        .bias = numbers[3 * c],
+                        .log_aspect = numbers[3 * c + 1],
+                        .log_aspect_spread = numbers[3 * c + 2]};
+        const std::size_t count = one.grid.cells() * cell_numbers;
+        expect<FileError>(count <= weights.size() - first, lazy_text(file.source, ": template_weights"),
+                          lazy_text(first + count, " or more"), weights.size());
+        one.weights.assign(weights.begin() + std::ptrdiff_t(first),
+                           weights.begin() + std::ptrdiff_t(first + count));
+        first += count;
+        templates.push_back(std::move(one));
+    }
+    expect<FileError>(first == weights.size(), lazy_text(file.source, ": template_weights"), first,
+                      weights.size());
+    return templates;
 }
 
 }  // namespace ism::detail

@@ -27,7 +27,7 @@ namespace ism {
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 6;
+inline constexpr std::int64_t model_format_version = 7;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {
@@ -93,7 +93,8 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
 [[nodiscard]] inline TensorFile model_to_tensors(const Model& model, const std::string& source) {
     TensorFile file{.source = source};
     // A member that is added to Model does not compile here until it is kept too.
-    const auto& [channels, shapes, box_classifier, calibration, training] = model;
+    const auto& [channels, shapes, box_classifier, calibration, templates, template_calibration, training] =
+        model;
     expect<FileError>(model.words() > 0 && shapes.occurrences.size() == model.words(),
                       lazy_text(source, ": words with occurrences"), model.words(),
                       shapes.occurrences.size());
@@ -117,7 +118,9 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
         {"mask_cell_px", Json(mask_cell_px).dump()}};
     shapes_to_tensors(shapes, file);
     box_classifier_to_tensors(box_classifier, file);
-    calibration_to_tensors(calibration, file);
+    calibration_to_tensors(calibration, "calibration", file);
+    templates_to_tensors(templates, file);
+    calibration_to_tensors(template_calibration, "template_calibration", file);
     return file;
 }
 
@@ -146,7 +149,9 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
     model.training = {count("images"), count("features_found"), count("features_used")};
     model.shapes = shapes_from_tensors(file, model.words());
     model.box_classifier = box_classifier_from_tensors(file, model.words(), classes);
-    model.calibration = calibration_from_tensors(file, classes);
+    model.calibration = calibration_from_tensors(file, "calibration", classes);
+    model.templates = templates_from_tensors(file, classes);
+    model.template_calibration = calibration_from_tensors(file, "template_calibration", classes);
     return model;
 }
 

@@ -111,6 +111,14 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
         }
         offsets.push_back(static_cast<std::uint32_t>(classes.size()));
     }
+    std::vector<std::uint8_t> pixels;
+    std::vector<std::uint32_t> with_pixels;
+    for (const TrainingView& view : views) {
+        with_pixels.push_back(!view.pixels.empty());
+        for (const Rgb c : view.pixels.pixels()) pixels.insert(pixels.end(), {c.r, c.g, c.b});
+    }
+    file.tensors["training_pixels"] = make_tensor<std::uint8_t>(pixels, {pixels.size() / 3, 3});
+    file.tensors["training_with_pixels"] = make_tensor<std::uint32_t>(with_pixels, {views.size()});
     file.tensors["training_views"] = make_tensor<std::uint32_t>(sides, {views.size(), 5});
     file.tensors["training_labels"] = make_tensor<std::uint32_t>(classes, {classes.size()});
     file.tensors["training_boxes"] = make_tensor<double>(boxes, {classes.size(), 4});
@@ -131,6 +139,9 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
     const auto labels = values<std::uint32_t>(file, "training_labels", {any_length});
     const auto boxes = values<double>(file, "training_boxes", {labels.size(), 4});
     const auto offsets = offsets_from_tensor(file, "training_label_offsets", views, labels.size());
+    const auto with_pixels = values<std::uint32_t>(file, "training_with_pixels", {views});
+    const auto pixels = values<std::uint8_t>(file, "training_pixels", {any_length, 3});
+    std::size_t next_pixel = 0;
     for (std::size_t v = 0; v < views; ++v) {
         const std::uint32_t* side = sides.data() + 5 * v;
         expect<FileError>(is_image_size(side[0], side[1]), lazy_text(file.source, ": size of an image"),
@@ -145,6 +156,17 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
             at_place(join_text(file.source, ", image ", v),
                      [&] { check(label, classes, view.width, view.height); });
             view.labels.push_back(label);
+        }
+        if (with_pixels[v] != 0) {
+            const std::size_t count = std::size_t(view.width) * std::size_t(view.height);
+            expect<FileError>(next_pixel + count <= pixels.size() / 3,
+                              lazy_text(file.source, ": training_pixels"),
+                              lazy_text(next_pixel + count, " or more"), pixels.size() / 3);
+            view.pixels = RgbImage(view.width, view.height);
+            for (Rgb& c : view.pixels.pixels()) {
+                c = {pixels[3 * next_pixel], pixels[3 * next_pixel + 1], pixels[3 * next_pixel + 2]};
+                ++next_pixel;
+            }
         }
         all.views.push_back(std::move(view));
     }

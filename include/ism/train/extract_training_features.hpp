@@ -160,6 +160,7 @@ private:
             TrainingView view = workers[worker]->view(image);
             parts[i] = detail::object_features(image, view, most);
             if (options.views) parts[i].views.push_back(std::move(view));
+            if (options.views && options.pixels) parts[i].views.back().pixels = colors_of(image.frame);
             if (options.views && options.mirror) {
                 parts[i].views.push_back(workers[worker]->view(mirrored(std::move(image))));
                 parts[i].views.back().mirrored = true;

@@ -67,6 +67,22 @@ struct ScoredExample {
     return curve;
 }
 
+/// @brief A curve for each class; one with few examples of either kind has that of all.
+[[nodiscard]] inline Calibration calibration_of(std::span<const std::vector<ScoredExample>> of_class,
+                                                std::span<const ScoredExample> all) {
+    constexpr std::size_t least = 8;  // of each kind for a curve of its own
+    const auto enough = [&](std::span<const ScoredExample> examples) {
+        std::size_t positives = 0;
+        for (const ScoredExample& e : examples) positives += e.positive;
+        return positives >= least && examples.size() - positives >= least;
+    };
+    Calibration calibration;
+    const Calibration::Curve common = fit_curve(all);
+    for (const auto& examples : of_class)
+        calibration.curves.push_back(enough(examples) ? fit_curve(examples) : common);
+    return calibration;
+}
+
 /// @brief Which half of the training images each view belongs to, 0 or 1: images of a class take turns,
 /// background images too, and a mirror image goes with its image.
 [[nodiscard]] inline std::vector<std::uint8_t> halves_of_views(const TrainingFeatures& features) {
@@ -90,7 +106,6 @@ struct ScoredExample {
                                                  std::span<const std::uint8_t> half_of_view,
                                                  std::size_t words, std::size_t classes,
                                                  const TrainOptions& options) {
-    constexpr std::size_t least = 8;    // of each kind for a curve of its own
     constexpr std::size_t many = 1000;  // hypotheses of one half are enough
     std::array<std::vector<TrainingBox>, 2> halves;
     for (const TrainingBox& box : boxes) halves[half_of_view[box.view]].push_back(box);
@@ -110,16 +125,7 @@ struct ScoredExample {
             all.push_back({score, positive});
         }
     }
-    const auto enough = [&](std::span<const ScoredExample> examples) {
-        std::size_t positives = 0;
-        for (const ScoredExample& e : examples) positives += e.positive;
-        return positives >= least && examples.size() - positives >= least;
-    };
-    Calibration calibration;
-    const Calibration::Curve common = fit_curve(all);
-    for (std::size_t c = 0; c < classes; ++c)
-        calibration.curves.push_back(enough(of_class[c]) ? fit_curve(of_class[c]) : common);
-    return calibration;
+    return calibration_of(of_class, all);
 }
 
 }  // namespace ism

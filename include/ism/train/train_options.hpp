@@ -19,8 +19,9 @@ struct ShapeModel;
 struct TrainingFeatureOptions {
     std::size_t max_features = 40000;  ///< on all objects together; each gives its strongest, at least 30
     bool choose_upsampling = true;     ///< small objects are enlarged; false: as the extractor says
-    bool views = true;   ///< also keep all features of the images, which box classifier and calibration need
-    bool mirror = true;  ///< … and those of the mirrored images
+    bool views = true;    ///< also keep all features of the images, which box classifier and calibration need
+    bool mirror = true;   ///< … and those of the mirrored images
+    bool pixels = false;  ///< also keep the images' colours, which templates need
 };
 
 /// @brief Whether classes share words.

@@ -32,6 +32,7 @@ struct TrainingView {
     std::uint32_t first_object = 0, end_object = 0;  ///< those of TrainingFeatures that the image shows
     bool mirrored = false;  ///< it shows the image of the view before as a mirror shows it
     std::vector<FeatureSet<float>> channels = {};
+    RgbImage pixels = {};  ///< of the image; empty = not kept
 };
 
 /// @brief All that training takes from images: what learn() makes a model of, without them. It can be kept,

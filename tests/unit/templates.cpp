@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/files.hpp"
+#include "support/pictures.hpp"
+
+#include "ism/detect/detect.hpp"
+#include "ism/detect/template_score.hpp"
+#include "ism/feature/hessian_laplace.hpp"
+#include "ism/feature/sift.hpp"
+#include "ism/model_file/model_file.hpp"
+#include "ism/train/learn_templates.hpp"
+#include "ism/train/train.hpp"
+
+using ism::test::pattern_picture;
+
+namespace {
+
+using TypedModel = ism::TypedModel<ism::HessianLaplace, ism::RootSift>;
+using Recognition = ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::TemplateScore,
+                                     ism::PatchSegmenter, ism::NonMaximumSuppression>;
+
+const std::vector<std::string> pattern_names{"first pattern", "second pattern"};
+const ism::TemplateOptions small{.cells = 36, .mining_rounds = 1};
+
+ism::TrainingFeatures pattern_features(bool pixels = true) {
+    std::vector<ism::TrainingImage> images;
+    for (std::uint64_t i = 0; i < 8; ++i)
+        images.push_back(pattern_picture(std::uint32_t(i % 2), 20 + 12 * int(i), 15 + 6 * int(i), i));
+    return ism::extract_training_features(pattern_names, ism::training_set(images),
+                                          {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
+                                          {.mirror = false, .pixels = pixels});
+}
+
+/// Learnt once for all tests.
+const TypedModel& model_with_templates() {
+    static const TypedModel model(
+        ism::learn_templates(ism::learn(pattern_features(), {.box_classifier = {}, .calibrate = false}),
+                             pattern_features(), small, 1));
+    return model;
+}
+
+}  // namespace
+
+TEST_CASE("templates judge and place what votes propose") {
+    const TypedModel& model = model_with_templates();
+    REQUIRE(model.templates.size() == 2);
+    CHECK(model.templates[0].grid.columns == 6);  // the objects are squares
+    CHECK(model.templates[0].grid.rows == 6);
+    CHECK(model.template_calibration.curves.size() == 2);
+    const Recognition recognition{.options = {.min_relative_score = 0.01}, .verifier = {.max_inside = 0.5}};
+    for (const std::uint32_t class_index : {0u, 1u}) {
+        const auto test = pattern_picture(class_index, 71, 53, 90 + class_index);
+        const auto found = ism::detect(model, test.frame, recognition, 1);
+        REQUIRE_FALSE(found.objects.empty());
+        const ism::Detection& best = found.objects.front();
+        CHECK(best.class_index == class_index);
+        CHECK(ism::iou(best.box, test.objects[0].box) > 0.75);
+        CHECK(best.probability > 0.5);
+        CHECK(best.probability <= 1);
+        CHECK(best.depth_m == Approx(1).margin(0.05));
+        CHECK(best.centre == best.box.centre());
+        REQUIRE_FALSE(best.support.empty());
+        for (const ism::Support& s : best.support)
+            CHECK(model.shapes.occurrence(s.occurrence).class_index == class_index);
+        const auto two = ism::detect(model, test.frame, recognition, 2);
+        REQUIRE(two.objects.size() == found.objects.size());
+        for (std::size_t i = 0; i < two.objects.size(); ++i) {
+            CHECK(two.objects[i].score == found.objects[i].score);
+            CHECK(two.objects[i].box == found.objects[i].box);
+        }
+    }
+}
+
+TEST_CASE("the same templates for any number of threads") {
+    const auto features = pattern_features();
+    const ism::Model words = ism::learn(features, {.box_classifier = {}, .calibrate = false});
+    const ism::Model two = ism::learn_templates(words, features, small, 2);
+    CHECK(two.templates == model_with_templates().templates);
+    CHECK(two.template_calibration.curves == model_with_templates().template_calibration.curves);
+}
+
+TEST_CASE("without templates hypotheses keep the score of their votes") {
+    ism::Model model = model_with_templates();
+    model.templates.clear();
+    const auto test = pattern_picture(0, 71, 53, 90);
+    const TypedModel plain(model);
+    const auto found = ism::detect(plain, test.frame, Recognition{}, 1);
+    ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer, ism::PatchSegmenter,
+                     ism::NonMaximumSuppression>
+        votes;
+    const auto expected = ism::detect(plain, test.frame, votes, 1);
+    REQUIRE(found.objects.size() == expected.objects.size());
+    for (std::size_t i = 0; i < found.objects.size(); ++i)
+        CHECK(found.objects[i].score == expected.objects[i].score);
+}
+
+TEST_CASE("templates are kept in the model file, pixels with the training features") {
+    const ism::test::TemporaryFolder folder;
+    const auto features = pattern_features();
+    ism::save_model(folder / "m", model_with_templates(), &features);
+    CHECK(ism::load_model(folder / "m").templates == model_with_templates().templates);
+    const auto read = ism::load_training_features(folder / "m");
+    REQUIRE(read.views.size() == features.views.size());
+    for (std::size_t v = 0; v < read.views.size(); ++v)
+        CHECK(read.views[v].pixels == features.views[v].pixels);
+}
+
+TEST_CASE("what templates cannot be learnt from is refused by name") {
+    const auto features = pattern_features(false);
+    const ism::Model words = ism::learn(features, {.box_classifier = {}, .calibrate = false});
+    CHECK_THROWS_WITH(ism::learn_templates(words, features),
+                      "templates: training images with pixels: expected 1 or more, got 0");
+    CHECK_THROWS_WITH(ism::learn_templates(words, features, {.cells = 3}),
+                      Catch::Contains("TemplateOptions::cells"));
+    CHECK_THROWS_WITH(ism::learn_templates(words, features, {.cost = 0}),
+                      Catch::Contains("TemplateOptions::cost"));
+    const auto test = pattern_picture(0, 71, 53, 90);
+    CHECK_THROWS_WITH(
+        ism::detect(model_with_templates(), test.frame, Recognition{.rescorer = {.max_boxes = 0}}, 1),
+        Catch::Contains("TemplateScore::max_boxes"));
+    CHECK_THROWS_WITH(
+        ism::detect(model_with_templates(), test.frame, Recognition{.rescorer = {.min_agreement = 2}}, 1),
+        Catch::Contains("TemplateScore::min_agreement"));
+}
