@@ -141,3 +141,14 @@ TEST_CASE("Overlays refuse what does not belong together") {
     detections.objects[0].segmentation.ground = ism::GrayImage(3, 3);
     CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, names), ism::Error);
 }
+
+TEST_CASE("a label tells the probability, or the score where that is not known") {
+    const std::vector<std::string> names{"bowl", "cup"};
+    ism::Detection object;
+    object.class_index = 1, object.score = 0.4136;
+    CHECK(ism::detail::label_text(object, names) == "cup 0.414");
+    object.probability = 0.834;
+    CHECK(ism::detail::label_text(object, names) == "cup 83 %");
+    object.class_index = 2;
+    CHECK_THROWS_WITH(ism::detail::label_text(object, names), Catch::Contains("class of a detection"));
+}

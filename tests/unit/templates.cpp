@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -98,6 +99,7 @@ TEST_CASE("without templates hypotheses keep the score of their votes") {
     REQUIRE(found.objects.size() == expected.objects.size());
     for (std::size_t i = 0; i < found.objects.size(); ++i)
         CHECK(found.objects[i].score == expected.objects[i].score);
+    for (const auto& object : expected.objects) CHECK(std::isnan(object.probability));
 }
 
 TEST_CASE("templates are kept in the model file, pixels with the training features") {

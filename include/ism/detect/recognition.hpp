@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -53,10 +52,6 @@ template <Rescorer R, Segmenter S, Verifier V>
     sort_by(hypotheses, strongest_first);
     stats.candidates = hypotheses.size();
     while (hypotheses.size() > options.max_hypotheses) hypotheses.pop_back();
-    for (Detection& hypothesis : hypotheses)
-        if (std::isnan(hypothesis.probability))
-            hypothesis.probability =
-                scene.model.calibration.probability(hypothesis.class_index, hypothesis.score);
     stats.segmented = hypotheses.size();
     stats.rescore_ms = watch.lap_ms();
     scene.pool.for_each(hypotheses.size(), [&](std::size_t i, unsigned) {

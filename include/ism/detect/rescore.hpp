@@ -24,7 +24,7 @@ concept Rescorer = std::copyable<R> &&
     { rescorer.rescore(std::move(hypotheses), scene) } -> std::same_as<std::vector<Detection>>;
 };
 
-/// @brief Leaves hypotheses with the score of their votes (the paper's way).
+/// @brief Leaves hypotheses with the score of their votes (the paper's way), whose probability is not known.
 struct NoRescorer {
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene&) const {
         return hypotheses;
@@ -32,16 +32,18 @@ struct NoRescorer {
 };
 
 /// @brief Multiplies the score of a hypothesis by the probability that its box shows its class, where the
-/// model has a classifier of boxes.
+/// model has a classifier of boxes, and tells the probability of this score, where the model knows it.
 struct BoxClassifierScore {
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses,
                                                  const Scene& scene) const {
         const BoxClassifier& classifier = scene.model.box_classifier;
-        if (classifier.empty()) return hypotheses;
         const std::size_t words = scene.model.words();
         scene.pool.for_each(hypotheses.size(), [&](std::size_t i, unsigned) {
-            const auto histogram = word_histogram(scene.features, scene.matches, words, hypotheses[i].box);
-            hypotheses[i].score *= classifier.probability(hypotheses[i].class_index, histogram);
+            Detection& one = hypotheses[i];
+            if (!classifier.empty())
+                one.score *= classifier.probability(
+                    one.class_index, word_histogram(scene.features, scene.matches, words, one.box));
+            one.probability = scene.model.calibration.probability(one.class_index, one.score);
         });
         return hypotheses;
     }

@@ -45,11 +45,13 @@ namespace ism::detail {
     return large;
 }
 
-/// "cup 0.83"
+/// "cup 83 %", how probable it is; or, where that is not known, its score, "cup 0.412"
 [[nodiscard]] inline std::string label_text(const Detection& detection, std::span<const std::string> names) {
     expect(detection.class_index < names.size(), "class of a detection", lazy_text("below ", names.size()),
            detection.class_index);
-    return names[detection.class_index] + " " + number_text(detection.score, 3);
+    return names[detection.class_index] + " " +
+           (std::isnan(detection.probability) ? number_text(detection.score, 3)
+                                              : number_text(std::round(100 * detection.probability)) + " %");
 }
 
 /// Writes a label at a box: above it, or where that place is outside the image or `used` already, inside

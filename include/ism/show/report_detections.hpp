@@ -37,6 +37,7 @@ struct DetectionReportOptions {
         std::sort(list->begin(), list->end());
         list->erase(std::unique(list->begin(), list->end()), list->end());
     }
+    if (!std::isnan(detection.probability)) add("probability", number_text(detection.probability, 2));
     add("score", number_text(detection.score));
     add("votes", join_text(detection.support.size(), " by ", features.size(), " features through ",
                            words.size(), " words"));
