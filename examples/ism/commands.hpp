@@ -45,6 +45,7 @@ struct TrainCommand {
 struct SearchOptions {
     std::string space{default_space}, rescorer{default_rescorer}, verifier{default_verifier};
     std::optional<double> keep = {};  ///< none = the library's
+    double min_score = 0;             ///< least probability of what is told
 };
 
 struct DetectCommand {

@@ -53,6 +53,7 @@ ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
     recognition.verifier.suppression = search.verifier == "nms" || (search.verifier == "auto" && templates);
     if (templates)
         recognition.options.max_size_px = std::hypot(scene.frame.gray.width(), scene.frame.gray.height());
+    recognition.options.min_probability = search.min_score;
     recognition.options.min_relative_score =
         search.keep.value_or(templates ? 0.01 : recognition.options.min_relative_score);
     return ism::recognise(std::move(scene), recognition);

@@ -38,6 +38,19 @@ says "<svg" pr.svg
 says "hessian-laplace" info.txt
 says "car, mug, duck, robot" info.txt
 
+says "templates       yes" info.txt
+
+# Only what is probable; and the paper's way, votes alone, of a model without templates.
+"$ism" detect --model model-1 --data toys/test.json -o probable --min-score 0.5 >/dev/null
+(($(grep -c image_id probable) <= $(grep -c image_id found-1))) || fail "--min-score tells more"
+"$ism" train --data toys/train.json -o plain --no-templates >/dev/null
+"$ism" info plain >plain.txt
+says "templates       no" plain.txt
+"$ism" detect --model plain --data toys/test.json -o found-plain --rescore none --verify mdl >/dev/null
+refused_in_a_line "--rescore template: expected a model with templates, got one without" \
+    "$ism" detect --model plain --data toys/test.json -o out --rescore template
+! cmp -s found-plain found-1 || fail "templates change nothing"
+
 # One class alone, and a class's own words.
 "$ism" train --data toys/train.json -o cars --class car --detector dog --descriptor sift >cars.txt
 says "classes      car" cars.txt

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -69,6 +70,12 @@ TEST_CASE("templates judge and place what votes propose") {
         REQUIRE_FALSE(best.support.empty());
         for (const ism::Support& s : best.support)
             CHECK(model.shapes.occurrence(s.occurrence).class_index == class_index);
+        auto probable = recognition;
+        probable.options.min_probability = 0.5;
+        const auto sure = ism::detect(model, test.frame, probable, 1);
+        CHECK(std::size_t(std::count_if(found.objects.begin(), found.objects.end(), [](const auto& object) {
+                  return object.probability >= 0.5;
+              })) == sure.objects.size());
         const auto two = ism::detect(model, test.frame, recognition, 2);
         REQUIRE(two.objects.size() == found.objects.size());
         for (std::size_t i = 0; i < two.objects.size(); ++i) {
@@ -100,6 +107,9 @@ TEST_CASE("without templates hypotheses keep the score of their votes") {
     for (std::size_t i = 0; i < found.objects.size(); ++i)
         CHECK(found.objects[i].score == expected.objects[i].score);
     for (const auto& object : expected.objects) CHECK(std::isnan(object.probability));
+    votes.options.min_probability = 0.5;
+    CHECK_THROWS_WITH(ism::detect(plain, test.frame, votes, 1),
+                      Catch::Contains("DetectOptions::min_probability: expected 0 where votes alone judge"));
 }
 
 TEST_CASE("templates are kept in the model file, pixels with the training features") {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -67,6 +68,12 @@ template <Rescorer R, Segmenter S, Verifier V>
     while (!result.objects.empty() &&
            result.objects.back().score < options.min_relative_score * result.objects.front().score)
         result.objects.pop_back();
+    if (options.min_probability > 0)
+        std::erase_if(result.objects, [&](const Detection& object) {
+            expect(!std::isnan(object.probability), "DetectOptions::min_probability",
+                   "0 where votes alone judge, or the model knows no probabilities", options.min_probability);
+            return object.probability < options.min_probability;
+        });
     stats.verify_ms = watch.lap_ms();
     result.features = std::move(scene.features);
     result.stats = stats;
