@@ -37,7 +37,7 @@ struct TrainCommand {
     bool skip_bad = false;
     std::filesystem::path add_to = {};     ///< model that learns more; empty = a new one
     std::string best_words = "agreement";  ///< what TrainOptions::selection goes by
-    bool templates = true;  ///< also learn a template of each class
+    bool templates = true;                 ///< also learn a template of each class
     bool growable = false;                 ///< keep the training features, for add_to
 };
 

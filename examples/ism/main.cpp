@@ -79,8 +79,9 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
                    "of more features a random part is clustered; all are matched")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    app.add_flag("!--no-templates", command.templates,
-                 "learn no template of each class, only votes and words");
+    app.add_flag_callback(
+        "--no-templates", [&command] { command.templates = false; },
+        "learn no template of each class, only votes and words");
     app.add_option("--seed", command.options.codebook.seed, "of random choices")->capture_default_str();
     CLI::Option* add_to =
         app.add_option("--add-to", command.add_to,
