@@ -27,12 +27,12 @@ says "classes      car, mug" more.txt
 says "objects      18" more.txt
 
 # A model without training features is smaller, and says what it lacks.
-"$ism" train --data toys/train.json -o small --class car --class mug --detector dog >/dev/null
+"$ism" train --data toys/train.json -o small --class car --class mug --detector dog --no-templates >/dev/null
 (($(wc -c <small) < $(wc -c <two))) || fail "--growable keeps nothing"
 refused_in_a_line "train with --growable" "$ism" train --data toys/train.json -o out --add-to small --class duck
 
 # Words of each class stay so.
-"$ism" train --data toys/train.json -o own --codebook per-class --class car --class mug --growable >own.txt
+"$ism" train --data toys/train.json -o own --codebook per-class --class car --class mug --growable --no-templates >own.txt
 "$ism" train --data toys/train.json -o own-more --add-to own --class duck >own-more.txt
 says "classes      car, mug, duck" own-more.txt
 

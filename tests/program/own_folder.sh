@@ -21,7 +21,7 @@ says "mean " figures.txt
 [[ -s e.json && -s e.svg ]] || fail "evaluate: no figures"
 cp test/test-0000.png .
 "$ism" detect --model m.safetensors test-0000.png -o one.json >/dev/null
-"$ism" train --data train.json -o two.safetensors --class car --growable >/dev/null
+"$ism" train --data train.json -o two.safetensors --class car --growable --no-templates >/dev/null
 "$ism" train --data train.json -o three.safetensors --add-to two.safetensors --class mug >/dev/null
 mkdir ../new
 cd ../new

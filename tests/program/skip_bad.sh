@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
 
 # Bad images are all named, and --skip-bad goes on without them.
 make_toys
-"$ism" train --data toys/train.json -o whole >/dev/null
+"$ism" train --data toys/train.json -o whole --no-templates >/dev/null
 cp -r toys bad
 rm bad/train/train-0000.png
 head -c 3000 toys/train/train-0001.png >bad/train/train-0001.png
@@ -14,14 +14,14 @@ refused "3 of 24 images cannot be used; nothing was written" "$ism" train --data
 (($(wc -l <stderr.txt) == 4)) || fail "expected three images and a line, got: $(cat stderr.txt)"
 for name in train-0000.png train-0001.png train-0002-depth.png; do says "$name" stderr.txt; done
 
-"$ism" train --data bad/train.json -o skipped --skip-bad >train.txt 2>train.err || fail "--skip-bad: $(cat train.err)"
+"$ism" train --data bad/train.json -o skipped --skip-bad --no-templates >train.txt 2>train.err || fail "--skip-bad: $(cat train.err)"
 says "images       21" train.txt
 says "skipped      3" train.txt
 (($(wc -l <train.err) == 3)) || fail "expected three images, got: $(cat train.err)"
 
 # The model is that of the images left.
 for number in 0000 0001 0002; do rm -f bad/train/train-$number.png; done
-"$ism" train --data bad/train.json -o again --skip-bad >/dev/null 2>&1
+"$ism" train --data bad/train.json -o again --skip-bad --no-templates >/dev/null 2>&1
 cmp skipped again || fail "--skip-bad: another model"
 ! cmp -s skipped whole || fail "--skip-bad: nothing was skipped"
 

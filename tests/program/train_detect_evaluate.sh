@@ -52,12 +52,12 @@ refused_in_a_line "--rescore template: expected a model with templates, got one 
 ! cmp -s found-plain found-1 || fail "templates change nothing"
 
 # One class alone, and a class's own words.
-"$ism" train --data toys/train.json -o cars --class car --detector dog --descriptor sift >cars.txt
+"$ism" train --data toys/train.json -o cars --class car --detector dog --descriptor sift --no-templates >cars.txt
 says "classes      car" cars.txt
 says "objects      6" cars.txt
 "$ism" detect --model cars --data toys/test.json -o found-cars --space ism --verify nms --keep 0.5 >/dev/null
 ! grep -v '"category_id":1,' found-cars | grep -q category_id || fail "detections of classes that were not learnt"
-"$ism" train --data toys/train.json -o own --codebook per-class --class robot --class duck --similarity 0.85 \
+"$ism" train --data toys/train.json -o own --codebook per-class --no-templates --class robot --class duck --similarity 0.85 \
     --min-cluster-size 3 --min-information-gain 1e-6 --seed 4 >own.txt
 says "classes      robot, duck" own.txt
 "$ism" detect --model own --data toys/test.json -o found-own >/dev/null
@@ -70,4 +70,4 @@ grep -F '"image_id":1,' found-single | sed 's/,$//' >single
 cmp expected single || fail "one image is not detected as the same image of a data set"
 
 # A model written to what is no file.
-"$ism" train --data toys/train.json -o /dev/null >/dev/null
+"$ism" train --data toys/train.json -o /dev/null --no-templates >/dev/null
