@@ -144,6 +144,18 @@ TEST_CASE("a box twice as large in an image twice as large has about the same ce
     for (std::size_t k = 0; k < a.size(); ++k) CHECK(b[k] == Approx(a[k]).margin(1e-3));
 }
 
+TEST_CASE("the levels of a large image stay small, those of a small one go as fine as asked") {
+    ism::ThreadPool pool(2);
+    const ism::HogPyramid large(ism::RgbImage(4000, 3000), ism::HogPyramid::finest, pool);
+    const auto& finest = large.level_for(0.1);
+    CHECK(double(finest.width) * finest.height <= ism::HogPyramid::max_pixels);
+    CHECK(double(finest.width) * finest.height > ism::HogPyramid::max_pixels / 4);
+    const ism::HogPyramid small(ism::RgbImage(40, 30), ism::HogPyramid::finest, pool);
+    CHECK(small.level_for(0.1).width == 80);
+    CHECK(small.level_for(8).width == 40);
+    CHECK(small.level_for(1e6).width >= 2);
+}
+
 TEST_CASE("an image that shrinks keeps its mean, one of a single colour its colour") {
     ism::Random random(4);
     std::vector<float> image(37 * 23 * 3);

@@ -88,11 +88,13 @@ namespace detail {
 class HogPyramid {
 public:
     static constexpr int finest = -2, coarsest = 11;
+    static constexpr double max_pixels = 2e6;  ///< of a level: 200 MB of sums; larger images begin coarser
 
     HogPyramid() = default;
     /// @param first  the finest level that is needed: 0 is the image's own resolution, −2 twice that
     HogPyramid(ImageView<const Rgb> color, int first, ThreadPool& pool)
         : first_(std::clamp(first, finest, coarsest)), width_(color.width()), height_(color.height()) {
+        while (first_<coarsest&& double(width_) * height_ * std::exp2(-first_)> max_pixels) ++first_;
         std::vector<float> image;
         image.reserve(std::size_t(width_) * std::size_t(height_) * 3);
         for (int y = 0; y < height_; ++y)

@@ -48,6 +48,7 @@ struct ProposedBox {
 /// @brief The boxes of a class, best first, that a template finds from proposals: each is asked at its own
 /// place in three sizes, those of other classes with the aspect of this; the best that are apart are then
 /// searched.
+/// @param max_count  boxes that are searched, and told
 [[nodiscard]] inline std::vector<SearchedBox> propose_boxes(const TemplateScorer& scorer,
                                                             std::uint32_t class_index,
                                                             const HogPyramid& pyramid,

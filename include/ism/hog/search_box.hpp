@@ -18,8 +18,9 @@ namespace ism {
 /// @brief A template ready to judge boxes, on both sides.
 class TemplateScorer {
 public:
+    /// @brief The margin of a box, and the side that it shows.
     struct Score {
-        double value = 0;
+        double value = 0;  ///< above 0: rather an object of the class than none
         bool mirrored = false;
     };
 
@@ -28,11 +29,13 @@ public:
         : template_(&from), mirrored_(mirrored_cells(from.weights, from.grid)) {}
 
     [[nodiscard]] const BoxTemplate& box_template() const { return *template_; }
+    /// @brief Judges a box on the side that fits better.
     [[nodiscard]] Score operator()(const HogPyramid& pyramid, const Box& box, CellScratch& scratch) const {
         const std::span<const float> cells = described(pyramid, box, scratch);
         const double plain = dot(cells, template_->weights), other = dot(cells, mirrored_);
         return {std::max(plain, other) + template_->bias - template_->aspect_penalty(box), other > plain};
     }
+    /// @brief Judges a box on one side.
     [[nodiscard]] double of_side(const HogPyramid& pyramid, const Box& box, bool mirrored,
                                  CellScratch& scratch) const {
         return dot(described(pyramid, box, scratch), mirrored ? mirrored_ : template_->weights) +
@@ -61,9 +64,10 @@ private:
     std::vector<float> mirrored_;
 };
 
+/// @brief A box with its score and the side that it shows.
 struct SearchedBox {
     Box box;
-    double score = 0;
+    double score = 0;  ///< the template's margin
     bool mirrored = false;
 };
 

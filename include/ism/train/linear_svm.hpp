@@ -21,6 +21,7 @@ struct LinearClassifier {
     double bias = 0;
 };
 
+/// @brief How a linear support vector machine is fitted.
 struct LinearSvmOptions {
     double cost = 0.05;        ///< C: what an example costs that lies within the margin
     double positive_cost = 1;  ///< how many times more a positive one costs
