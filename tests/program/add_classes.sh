@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
 
 # Classes one after another; the same model for any number of threads.
 make_toys
-"$ism" train --data toys/train.json -o two --class car --class mug --detector dog --growable >/dev/null
+"$ism" train --data toys/train.json -o two --class car --class mug --detector dog --growable --no-templates >/dev/null
 for threads in 1 2; do
     "$ism" train --data toys/train.json -o four-$threads --add-to two --class robot --class duck \
         --threads $threads >add.txt
@@ -32,7 +32,7 @@ says "objects      18" more.txt
 refused_in_a_line "train with --growable" "$ism" train --data toys/train.json -o out --add-to small --class duck
 
 # Words of each class stay so.
-"$ism" train --data toys/train.json -o own --codebook per-class --class car --class mug --growable --no-templates >own.txt
+"$ism" train --data toys/train.json -o own --codebook per-class --class car --class mug --growable >own.txt
 "$ism" train --data toys/train.json -o own-more --add-to own --class duck >own-more.txt
 says "classes      car, mug, duck" own-more.txt
 

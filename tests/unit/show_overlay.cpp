@@ -143,12 +143,12 @@ TEST_CASE("Overlays refuse what does not belong together") {
 }
 
 TEST_CASE("a label tells the probability, or the score where that is not known") {
-    const std::vector<std::string> names{"bowl", "cup"};
+    const std::vector<std::string> two_names{"bowl", "cup"};
     ism::Detection object;
     object.class_index = 1, object.score = 0.4136;
-    CHECK(ism::detail::label_text(object, names) == "cup 0.414");
+    CHECK(ism::detail::label_text(object, two_names) == "cup 0.414");
     object.probability = 0.834;
-    CHECK(ism::detail::label_text(object, names) == "cup 83 %");
+    CHECK(ism::detail::label_text(object, two_names) == "cup 83 %");
     object.class_index = 2;
-    CHECK_THROWS_WITH(ism::detail::label_text(object, names), Catch::Contains("class of a detection"));
+    CHECK_THROWS_WITH(ism::detail::label_text(object, two_names), Catch::Contains("class of a detection"));
 }
