@@ -64,6 +64,7 @@ struct DetectCommand {
 struct EvaluateCommand {
     std::filesystem::path data, detections;
     ism::EvaluateOptions options = {};
+    bool coco = false;                           ///< COCO's rule in place of that of the options
     std::filesystem::path json = {}, plot = {};  ///< empty = none
 };
 

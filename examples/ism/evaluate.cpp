@@ -17,12 +17,17 @@ void run_evaluate(const EvaluateCommand& command) {
         if (!output.empty()) check_output(output, std::array{command.data, command.detections});
     const ism::Dataset dataset = ism::read_dataset(command.data);
     const std::vector<ism::Result> results = ism::read_results(command.detections);
-    const ism::Evaluation evaluation = ism::at_place(
-        ism::file_text(command.detections), [&] { return ism::evaluate(dataset, results, command.options); });
-    if (!command.json.empty()) ism::write_file(command.json, ism::to_json(evaluation) + "\n");
+    const auto tell = [&](const auto& evaluation) {
+        if (!command.json.empty()) ism::write_file(command.json, ism::to_json(evaluation) + "\n");
+        std::fputs(ism::to_table(evaluation).c_str(), stdout);
+    };
+    const std::string place = ism::file_text(command.detections);
+    if (command.coco) return tell(ism::at_place(place, [&] { return ism::evaluate_coco(dataset, results); }));
+    const ism::Evaluation evaluation =
+        ism::at_place(place, [&] { return ism::evaluate(dataset, results, command.options); });
     if (!command.plot.empty())
         ism::write_file(command.plot, ism::to_svg(ism::precision_recall_plot(evaluation)));
-    std::fputs(ism::to_table(evaluation).c_str(), stdout);
+    tell(evaluation);
 }
 
 }  // namespace program

@@ -161,17 +161,26 @@ void add_evaluate(CLI::App& parent, program::EvaluateCommand& command) {
            "--rule",
            [&command](const std::string& rule) {
                command.options.rule =
-                   rule == "iou" ? ism::EvaluateOptions::Rule::iou : ism::EvaluateOptions::Rule::uiuc;
+                   rule == "uiuc" ? ism::EvaluateOptions::Rule::uiuc : ism::EvaluateOptions::Rule::iou;
+               command.coco = rule == "coco";
            },
-           "when a box is right")
-        ->check(CLI::IsMember({"iou", "uiuc"}))
+           "when a box is right: enough overlap (iou), or a centre near enough (uiuc); coco: AP and recall "
+           "as "
+           "its official evaluation tells them of boxes")
+        ->check(CLI::IsMember({"iou", "uiuc", "coco"}))
         ->default_str("iou");
-    app.add_option("--iou", command.options.iou_threshold, "least overlap of a right box")
-        ->check(CLI::Range(0.0, 1.0))
-        ->capture_default_str();
+    const CLI::Option* iou =
+        app.add_option("--iou", command.options.iou_threshold, "least overlap of a right box by the rule iou")
+            ->check(CLI::Range(0.0, 1.0))
+            ->capture_default_str();
     app.add_option("--json", command.json, "figures to write, JSON");
-    app.add_option("--plot", command.plot, "precision-recall curves to write, SVG");
-    app.callback([&command] { program::run_evaluate(command); });
+    const CLI::Option* plot = app.add_option("--plot", command.plot, "precision-recall curves to write, SVG");
+    app.callback([&command, iou, plot] {
+        for (const CLI::Option* other : {iou, plot})
+            ism::expect(!command.coco || other->count() == 0, "--rule coco",
+                        ism::lazy_text("no ", other->get_name()), "both");
+        program::run_evaluate(command);
+    });
 }
 
 void add_demo(CLI::App& parent, program::DemoCommand& command) {

@@ -32,6 +32,11 @@ says '"best_f1"' figures.json
 says "<svg" pr.svg
 "$ism" evaluate --data toys/test.json --detections found-1 --rule uiuc >uiuc.txt
 "$ism" evaluate --data toys/test.json --detections found-1 --iou 0.9 >strict.txt
+"$ism" evaluate --data toys/test.json --detections found-1 --rule coco --json coco.json >coco.txt
+says "AP50 %" coco.txt
+says '"ap75"' coco.json
+refused_in_a_line "--rule coco: expected no --iou, got both" \
+    "$ism" evaluate --data toys/test.json --detections found-1 --rule coco --iou 0.9
 ! cmp -s figures.txt strict.txt || fail "--iou changes nothing"
 
 "$ism" info model-1 >info.txt

@@ -6,6 +6,7 @@
 #include "support/catch.hpp"
 
 #include "ism/evaluate/coco.hpp"
+#include "ism/evaluate/table.hpp"
 
 #if defined(STBI_INCLUDE_STB_IMAGE_H)
 #error "files are measured against files without a library for images"
@@ -49,6 +50,23 @@ std::string message_of(const ism::Dataset& set, const std::vector<ism::Result>& 
     }
     return "";
 }
+
+// objects and detections of class 0 in image 0
+ism::TruthObject truth_of(ism::Box box, bool crowd = false) {
+    return {0, 0, box, crowd};
+}
+ism::FoundObject found_of(double score, ism::Box box, std::size_t image = 0, std::uint32_t class_index = 0) {
+    return {image, class_index, box, score};
+}
+
+ism::CocoEvaluation by_coco(const std::vector<ism::TruthObject>& truth,
+                            const std::vector<ism::FoundObject>& found) {
+    const std::vector<std::string> names{"cup", "bowl"};
+    return ism::evaluate_coco(truth, found, 2, names);
+}
+
+// what the precision 1 up to a recall of a half is worth: 51 of 101 recalls
+constexpr double half = 51.0 / 101;
 
 }  // namespace
 
@@ -108,4 +126,113 @@ TEST_CASE("An evaluation as JSON keeps the order of classes and writes null for 
     const std::vector<ism::Result> results{result_of(4, 3, {5, 5, 10, 10}, 0.8)};
     const auto with_accuracy = nlohmann::json::parse(ism::to_json(ism::evaluate(one_each, results)));
     CHECK(with_accuracy["accuracy"] == 0.5);
+}
+
+TEST_CASE("The thresholds of COCO's rule are those of numpy's linspace") {
+    for (std::size_t i = 0; i < 10; ++i)
+        CHECK(ism::coco_thresholds[i] == Approx(0.5 + 0.05 * double(i)).epsilon(1e-15));
+    CHECK(ism::coco_thresholds[8] <= 0.9);
+    CHECK(ism::coco_thresholds[9] == 0.95);
+}
+
+TEST_CASE("COCO's rule matches anew at each overlap") {
+    // 1 overlaps the first object by 9/11, 2 by .9: up to .8 it is found by 1, for .85 and .9 by 2; both
+    // overlap the second object by less than a half, or not as well
+    const auto result =
+        by_coco({truth_of({0, 0, 10, 10}), truth_of({0, 40, 10, 10})},
+                {found_of(.9, {0, 1, 10, 10}), found_of(.8, {0, 0, 10, 9}), found_of(.7, {50, 0, 10, 10})});
+    const ism::CocoFigures& figures = result.classes[0].figures;
+    CHECK(figures.ap50 == Approx(half));
+    CHECK(figures.ap75 == Approx(half));
+    CHECK(figures.ap == Approx((7 * half + 2 * half / 2) / 10));
+    CHECK(figures.recall == Approx(0.45));
+    CHECK(result.classes[0].objects == 2);
+    CHECK(result.classes[0].detections == 3);
+}
+
+TEST_CASE("By COCO's rule crowds take what no object takes, any number of detections") {
+    const std::vector<ism::TruthObject> truth{truth_of({0, 0, 100, 50}, true), truth_of({10, 10, 10, 10}),
+                                              truth_of({200, 0, 10, 10})};
+    const std::vector<ism::FoundObject> found{found_of(.9, {40, 10, 20, 20}), found_of(.9, {42, 10, 20, 20}),
+                                              found_of(.8, {10, 10, 10, 6}), found_of(.5, {200, 0, 10, 10})};
+    // the third is the object in the crowd up to an overlap of .6, beyond it is part of the crowd
+    ism::CocoFigures figures = by_coco(truth, found).classes[0].figures;
+    CHECK(figures.ap50 == 1);
+    CHECK(figures.ap75 == Approx(half));
+    CHECK(figures.ap == Approx(0.3 + 0.7 * half));
+    CHECK(figures.recall == Approx(0.65));
+
+    // half of it in the crowd is enough at .5 alone, else it is wrong before any that is right
+    auto beside = found;
+    beside.push_back(found_of(1, {95, 0, 10, 10}));
+    figures = by_coco(truth, beside).classes[0].figures;
+    CHECK(figures.ap50 == 1);
+    CHECK(figures.ap75 == Approx(half / 2));
+    CHECK(figures.ap == Approx((1 + 2 * 2.0 / 3 + 7 * half / 2) / 10));
+}
+
+TEST_CASE("By COCO's rule of equal scores the first image and detection count first") {
+    const std::vector<ism::TruthObject> truth{truth_of({0, 0, 10, 10})};
+    const ism::FoundObject right = found_of(.5, {0, 0, 10, 10}), wrong = found_of(.5, {50, 0, 10, 10}),
+                           wrong_there = found_of(.5, {0, 0, 10, 10}, 1);
+    CHECK(by_coco(truth, {right, wrong}).mean.ap == 1);
+    CHECK(by_coco(truth, {wrong, right}).mean.ap == 0.5);
+    CHECK(by_coco(truth, {wrong_there, right}).mean.ap == 1);
+}
+
+TEST_CASE("By COCO's rule of equal overlaps the last object is found") {
+    // the first detection overlaps both by 9/11; the second is right from .7 to .8 if the first took the last
+    const auto result = by_coco({truth_of({0, 0, 10, 10}), truth_of({2, 0, 10, 10})},
+                                {found_of(.9, {1, 0, 10, 10}), found_of(.8, {0, 0, 10, 10})});
+    CHECK(result.mean.ap == Approx(0.7 + 0.3 * half / 2));
+    CHECK(result.mean.recall == Approx(0.7 + 0.3 * 0.5));
+}
+
+TEST_CASE("COCO's rule counts the best 100 detections of each image and class") {
+    const std::vector<ism::TruthObject> truth{truth_of({0, 0, 10, 10}), {0, 1, {0, 0, 10, 10}}};
+    std::vector<ism::FoundObject> found{found_of(.1, {0, 0, 10, 10}), found_of(.1, {0, 0, 10, 10}, 0, 1)};
+    for (int i = 0; i < 99; ++i) found.push_back(found_of(.5, {50, 0, 10, 10}));
+    CHECK(by_coco(truth, found).classes[0].figures.ap == Approx(0.01));
+    found.push_back(found_of(.5, {50, 0, 10, 10}, 1));
+    CHECK(by_coco(truth, found).classes[0].figures.ap == Approx(1.0 / 101));
+    found.push_back(found_of(.5, {50, 0, 10, 10}));
+    const auto result = by_coco(truth, found);
+    CHECK(result.classes[0].figures.ap == 0);
+    CHECK(result.classes[0].figures.recall == 0);
+    CHECK(result.classes[0].detections == 101);
+    CHECK(result.classes[1].figures.ap == 1);
+}
+
+TEST_CASE("By COCO's rule a class without objects is not part of the mean") {
+    const auto result = by_coco({truth_of({0, 0, 10, 10})},
+                                {found_of(.5, {0, 0, 10, 10}), found_of(.9, {0, 0, 10, 10}, 0, 1)});
+    CHECK(std::isnan(result.classes[1].figures.ap));
+    CHECK(std::isnan(result.classes[1].figures.recall));
+    CHECK(result.mean.ap == 1);
+    CHECK(by_coco({truth_of({0, 0, 10, 10})}, {}).mean.ap == 0);
+    CHECK(std::isnan(by_coco({}, {}).mean.ap));
+    CHECK_THROWS_AS(by_coco({}, {found_of(.5, {0, 0, 1, 1}, 2)}), ism::Error);
+    CHECK_THROWS_AS(by_coco({}, {found_of(std::nan(""), {0, 0, 1, 1})}), ism::Error);
+}
+
+TEST_CASE("Results are measured by COCO's rule in the order of the images' numbers") {
+    ism::Dataset set = small_set();
+    set.images[0].objects[1].class_index = 0;  // the crowd is one of cups
+    // image 4 comes before image 90, whichever stands first in the files
+    const std::vector<ism::Result> results{result_of(90, 7, {0, 0, 10, 10}, 0.5),
+                                           result_of(4, 7, {0, 0, 10, 10}, 0.5),
+                                           result_of(90, 7, {14, 2, 5, 5}, 0.95)};
+    const ism::CocoEvaluation result = ism::evaluate_coco(set, results);
+    CHECK(result.classes[0].figures.ap == 0.5);
+    CHECK(result.classes[0].objects == 1);
+    CHECK(result.classes[0].detections == 3);
+    CHECK(result.mean.ap == 0.25);
+    const auto json = nlohmann::json::parse(ism::to_json(result));
+    CHECK(json["classes"]["cup"]["ap50"] == 0.5);
+    CHECK(json["mean"]["recall"] == 0.5);
+    CHECK(ism::to_table(result) ==
+          "class  objects  found  AP %  AP50 %  AP75 %  recall %\n"
+          "cup          1      3  50.0    50.0    50.0     100.0\n"
+          "bowl         1      0   0.0     0.0     0.0       0.0\n"
+          "mean         2      3  25.0    25.0    25.0      50.0\n");
 }

@@ -16,6 +16,7 @@
 
 #include "ism/dataset/coco_results.hpp"
 #include "ism/dataset/dataset.hpp"
+#include "ism/evaluate/coco_rule.hpp"
 #include "ism/evaluate/evaluate.hpp"
 #include "ism/io/paths.hpp"
 
@@ -109,12 +110,35 @@ template <MatchRule R>
     return detail::with_rule(options, [&](const auto& rule) { return evaluate(dataset, results, rule); });
 }
 
+/// @brief Measures the boxes of results against a data set as the official evaluation of COCO does: images
+/// come in the order of their numbers, crowds are ignored.
+/// @throws Error as above.
+[[nodiscard]] inline CocoEvaluation evaluate_coco(const Dataset& dataset, std::span<const Result> results) {
+    std::map<std::int64_t, std::size_t> place;
+    for (const DatasetImage& image : dataset.images) place[image.id];
+    for (std::size_t next = 0; auto& [id, where] : place) where = next++;
+    const auto put = [&](auto objects) {
+        for (auto& object : objects) object.image = place[dataset.images[object.image].id];
+        return objects;
+    };
+    return evaluate_coco(put(detail::truth_of(dataset).objects), put(detail::found_in(dataset, results)),
+                         dataset.images.size(), dataset.class_names);
+}
+
+namespace detail {
+
+[[nodiscard]] inline nlohmann::ordered_json json_number(double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace detail
+
 /// @brief An evaluation as JSON text: `classes` {name: {objects, detections, right, ap, eer, best_f1,
 /// best_f1_score, mask_iou}}, `mean` {ap, eer, best_f1, mask_iou}, `accuracy`; null where there was nothing
 /// to measure.
 [[nodiscard]] inline std::string to_json(const Evaluation& evaluation) {
     using Json = nlohmann::ordered_json;
-    const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+    const auto number = [](double value) { return detail::json_number(value); };
     const auto add = [&](Json record, const Figures& figures) {
         record["ap"] = number(figures.ap);
         record["eer"] = number(figures.eer);
@@ -131,6 +155,24 @@ template <MatchRule R>
     }
     Json root = {{"classes", classes}, {"mean", add(Json::object(), evaluation.mean)}};
     root["accuracy"] = evaluation.confusion ? Json(evaluation.confusion->accuracy()) : Json(nullptr);
+    return root.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+/// @brief An evaluation by COCO's rule as JSON text: `classes` {name: {objects, detections, ap, ap50, ap75,
+/// recall}}, `mean` {ap, ap50, ap75, recall}; null where there was nothing to measure.
+[[nodiscard]] inline std::string to_json(const CocoEvaluation& evaluation) {
+    using Json = nlohmann::ordered_json;
+    const auto add = [](Json record, const CocoFigures& figures) {
+        record["ap"] = detail::json_number(figures.ap);
+        record["ap50"] = detail::json_number(figures.ap50);
+        record["ap75"] = detail::json_number(figures.ap75);
+        record["recall"] = detail::json_number(figures.recall);
+        return record;
+    };
+    Json classes = Json::object();
+    for (const CocoClass& c : evaluation.classes)
+        classes[c.name] = add({{"objects", c.objects}, {"detections", c.detections}}, c.figures);
+    const Json root = {{"classes", classes}, {"mean", add(Json::object(), evaluation.mean)}};
     return root.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -72,6 +72,19 @@ struct Mean {
     }
 };
 
+/// @throws Error where an index of an image or class is too large.
+inline void check_indices(std::span<const TruthObject> truth, std::span<const FoundObject> found,
+                          std::size_t images, std::size_t classes) {
+    const auto check = [&](const auto& object, const char* whose) {
+        expect(object.image < images, lazy_text("image of ", whose), lazy_text("below ", images),
+               object.image);
+        expect(object.class_index < classes, lazy_text("class of ", whose), lazy_text("below ", classes),
+               object.class_index);
+    };
+    for (const TruthObject& t : truth) check(t, "an object");
+    for (const FoundObject& f : found) check(f, "a found object");
+}
+
 /// The figures of class `c`.
 template <MaskOverlap Masks>
 [[nodiscard]] ClassEvaluation evaluate_class(std::span<const TruthObject> truth,
@@ -108,15 +121,7 @@ template <MatchRule Rule, MaskOverlap Masks = NoMasks>
 [[nodiscard]] Evaluation evaluate(std::span<const TruthObject> truth, std::span<const FoundObject> found,
                                   std::size_t image_count, std::span<const std::string> class_names,
                                   const Rule& rule, Masks masks = {}) {
-    const auto check = [&](const auto& object, const char* whose) {
-        expect(object.image < image_count, lazy_text("image of ", whose), lazy_text("below ", image_count),
-               object.image);
-        expect(object.class_index < class_names.size(), lazy_text("class of ", whose),
-               lazy_text("below ", class_names.size()), object.class_index);
-    };
-    for (const TruthObject& t : truth) check(t, "an object");
-    for (const FoundObject& f : found) check(f, "a found object");
-
+    detail::check_indices(truth, found, image_count, class_names.size());
     Evaluation result;
     result.judgements = match(truth, found, rule);
     detail::Mean ap, eer, f1, mask;

@@ -95,14 +95,19 @@ struct Judgement {
     [[nodiscard]] bool operator==(const Judgement&) const = default;
 };
 
+/// @brief Validates a detection.
+/// @throws Error where its score or box is not finite.
+inline void check(const FoundObject& found) {
+    const Box& box = found.box;
+    expect(std::isfinite(found.score), "score of a found object", "a finite number", found.score);
+    expect(std::isfinite(box.x + box.y + box.width + box.height), "box of a found object", "finite numbers",
+           lazy_text(box.x, ", ", box.y, ", ", box.width, ", ", box.height));
+}
+
 /// @brief Indices of the detections, best score first; of equal scores the earlier one first.
 /// @throws Error where a score or a box is not finite.
 [[nodiscard]] inline std::vector<std::size_t> by_score(std::span<const FoundObject> found) {
-    for (const FoundObject& f : found) {
-        expect(std::isfinite(f.score), "score of a found object", "a finite number", f.score);
-        expect(std::isfinite(f.box.x + f.box.y + f.box.width + f.box.height), "box of a found object",
-               "finite numbers", lazy_text(f.box.x, ", ", f.box.y, ", ", f.box.width, ", ", f.box.height));
-    }
+    for (const FoundObject& f : found) check(f);
     std::vector<std::size_t> order(found.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),

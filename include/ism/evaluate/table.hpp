@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ism/core/number_text.hpp"
+#include "ism/evaluate/coco_rule.hpp"
 #include "ism/evaluate/evaluate.hpp"
 
 namespace ism {
@@ -97,6 +98,24 @@ namespace detail {
         text += align_columns(table_cells(*evaluation.confusion, evaluation.classes));
     }
     return text;
+}
+
+/// @brief An evaluation by COCO's rule as lines of text: figures in percent, "-" = nothing to measure.
+[[nodiscard]] inline std::string to_table(const CocoEvaluation& evaluation) {
+    std::vector<std::vector<std::string>> rows = {
+        {"class", "objects", "found", "AP %", "AP50 %", "AP75 %", "recall %"}};
+    const auto add = [&](std::vector<std::string> row, const CocoFigures& figures) {
+        for (const double figure : {figures.ap, figures.ap50, figures.ap75, figures.recall})
+            row.push_back(percent_text(figure));
+        rows.push_back(std::move(row));
+    };
+    std::size_t objects = 0, detections = 0;
+    for (const CocoClass& c : evaluation.classes) {
+        add({c.name, std::to_string(c.objects), std::to_string(c.detections)}, c.figures);
+        objects += c.objects, detections += c.detections;
+    }
+    add({"mean", std::to_string(objects), std::to_string(detections)}, evaluation.mean);
+    return align_columns(rows);
 }
 
 }  // namespace ism
