@@ -162,6 +162,34 @@ TEST_CASE("results tell how much there was to do at each station") {
     for (const double ms : {stats.extract_ms, stats.match_ms, stats.vote_ms, stats.segment_ms}) CHECK(ms > 0);
 }
 
+TEST_CASE("where masks are not needed to verify, only what stays is cut out") {
+    struct MasksFirst {
+        [[nodiscard]] std::vector<ism::Verified> verify(std::span<const ism::Detection> hypotheses,
+                                                        const ism::Scene&) const {
+            for (const ism::Detection& hypothesis : hypotheses)
+                CHECK_FALSE(hypothesis.segmentation.mask.empty());
+            return ism::NonMaximumSuppression{}.verify(hypotheses);
+        }
+    };
+    const auto& model = trained<ism::RootSift>();
+    const auto scene = pattern_picture(0, 70, 50, 9);
+    const ism::DetectOptions all{.min_relative_score = 0};
+    const auto late =
+        ism::detect(model, scene.frame,
+                    ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer, ism::PatchSegmenter,
+                                     ism::NonMaximumSuppression>{.options = all});
+    const auto early = ism::detect(model, scene.frame,
+                                   ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer,
+                                                    ism::PatchSegmenter, MasksFirst>{.options = all});
+    CHECK(late.stats.segmented == late.objects.size());
+    CHECK(early.stats.segmented > late.stats.segmented);
+    REQUIRE(late.objects.size() == early.objects.size());
+    for (std::size_t i = 0; i < late.objects.size(); ++i) {
+        CHECK(late.objects[i].box == early.objects[i].box);
+        CHECK(late.objects[i].segmentation.mask == early.objects[i].segmentation.mask);
+    }
+}
+
 TEST_CASE("frame after frame of other sizes a detector finds what a new one finds") {
     const auto& model = trained<ism::RootSift>();
     ism::FrameDetector detector(model, 2);

@@ -27,8 +27,8 @@ struct Support {
 /// whose first pixel is (x, y).
 struct Segmentation {
     int x = 0, y = 0;  ///< where the part begins, pixels of the image
-    GrayImage figure;  ///< p(figure) carried by the support, ≥ 0; 0 where no patch reaches
-    GrayImage ground;  ///< p(ground) carried by the support, ≥ 0
+    GrayImage figure;  ///< p(figure), ≥ 0; by votes that which they carry, 0 where no patch reaches
+    GrayImage ground;  ///< p(ground), ≥ 0
     Mask mask;         ///< 1 where figure outweighs ground
 };
 
@@ -63,7 +63,7 @@ struct DetectionStats {
     std::size_t features = 0, matches = 0, votes = 0;
     std::size_t hypotheses = 0;  ///< places where votes agree
     std::size_t candidates = 0;  ///< what rescoring made of them
-    std::size_t segmented = 0;   ///< the best of these, which were cut out and verified
+    std::size_t segmented = 0;   ///< of these, those that were cut out
     double extract_ms = 0, match_ms = 0, vote_ms = 0, rescore_ms = 0, segment_ms = 0, verify_ms = 0;
 };
 

@@ -42,6 +42,14 @@ void check_policy(const Policy& policy) {
     if constexpr (requires { check(policy); }) check(policy);
 }
 
+template <Verifier V>
+[[nodiscard]] bool needs_masks(const V& verifier) {
+    if constexpr (requires { verifier.needs_masks(); })
+        return verifier.needs_masks();
+    else
+        return true;
+}
+
 /// From hypotheses on: the same code for every vote space.
 template <Rescorer R, Segmenter S, Verifier V>
 [[nodiscard]] Detections judge_hypotheses(Scene scene, std::vector<Detection> hypotheses,
@@ -53,12 +61,16 @@ template <Rescorer R, Segmenter S, Verifier V>
     sort_by(hypotheses, strongest_first);
     stats.candidates = hypotheses.size();
     while (hypotheses.size() > options.max_hypotheses) hypotheses.pop_back();
-    stats.segmented = hypotheses.size();
     stats.rescore_ms = watch.lap_ms();
-    scene.pool.for_each(hypotheses.size(), [&](std::size_t i, unsigned) {
-        hypotheses[i].segmentation = segmenter.segment(hypotheses[i], scene);
-    });
-    stats.segment_ms = watch.lap_ms();
+    const auto segment = [&](std::vector<Detection>& detections) {
+        scene.pool.for_each(detections.size(), [&](std::size_t i, unsigned) {
+            detections[i].segmentation = segmenter.segment(detections[i], scene);
+        });
+        stats.segmented = detections.size();
+        stats.segment_ms = watch.lap_ms();
+    };
+    const bool masks_first = needs_masks(verifier);
+    if (masks_first) segment(hypotheses);
     Detections result;
     for (const Verified& verified : verifier.verify(std::span<const Detection>(hypotheses), scene)) {
         result.objects.push_back(std::move(hypotheses[verified.index]));
@@ -75,6 +87,7 @@ template <Rescorer R, Segmenter S, Verifier V>
             return object.probability < options.min_probability;
         });
     stats.verify_ms = watch.lap_ms();
+    if (!masks_first) segment(result.objects);
     result.features = std::move(scene.features);
     result.stats = stats;
     return result;

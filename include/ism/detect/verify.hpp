@@ -23,7 +23,8 @@ struct Verified {
 
 /// @brief Decides which of several hypotheses stay. To model it, write a small struct with its options as
 /// members and `std::vector<Verified> verify(std::span<const Detection>, const Scene&) const`. Options are
-/// validated by `void check(const V&)` where there is one.
+/// validated by `void check(const V&)` where there is one. With `bool needs_masks() const`, where this is
+/// false, hypotheses come without their segmentation, and only those that stay are cut out.
 template <class V>
 concept Verifier = std::copyable<V> &&
     requires(const V& verifier, std::span<const Detection> hypotheses, const Scene& scene) {
@@ -35,6 +36,9 @@ struct NonMaximumSuppression {
     double max_iou = 0.4;        ///< boxes that overlap more are of one object
     double max_inside = 1;       ///< … or of which a larger part lies within the stronger
     bool across_classes = true;  ///< whether classes suppress each other
+
+    /// @brief Boxes are enough.
+    [[nodiscard]] static constexpr bool needs_masks() { return false; }
 
     /// @brief The hypotheses that stay, strongest first, with their scores unchanged.
     [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> hypotheses) const {
