@@ -28,6 +28,7 @@ inline constexpr std::string_view default_descriptor = "root-sift";
 inline constexpr std::string_view default_space = "jism";
 inline constexpr std::string_view default_rescorer = "auto";
 inline constexpr std::string_view default_verifier = "auto";
+inline constexpr std::string_view default_segmenter = "auto";
 
 struct TrainCommand {
     std::filesystem::path data, model;
@@ -43,7 +44,8 @@ struct TrainCommand {
 
 /// How objects are searched for, whatever the vote space.
 struct SearchOptions {
-    std::string space{default_space}, rescorer{default_rescorer}, verifier{default_verifier};
+    std::string space{default_space}, rescorer{default_rescorer}, verifier{default_verifier},
+        segmenter{default_segmenter};
     std::optional<double> keep = {};  ///< none = the library's
     double min_score = 0;             ///< least probability of what is told
 };

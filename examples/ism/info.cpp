@@ -23,6 +23,7 @@ void run_info(const std::filesystem::path& path) {
     std::printf("occurrences     %zu\n", model.shapes.occurrences.values().size());
     std::printf("box classifier  %s\n", model.box_classifier.empty() ? "no" : "yes");
     std::printf("templates       %s\n", model.templates.empty() ? "no" : "yes");
+    std::printf("exemplars       %zu\n", model.exemplars.size());
     std::printf("probabilities   %s\n", model.calibration.empty() ? "no" : "yes");
     std::printf("reference size  %g px\n", ism::reference_size_px);
     for (const ism::Channel& channel : model.channels) {

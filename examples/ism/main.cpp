@@ -140,6 +140,12 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
            "templates judge, else masks")
         ->check(CLI::IsMember({"auto", "mdl", "nms"}))
         ->capture_default_str();
+    app.add_option(
+           "--segment", command.search.segmenter,
+           "what cuts objects out: training objects that look alike, with the colours and edges of the "
+           "picture, or the patches of votes; auto: exemplars where the model has them, else patches")
+        ->check(CLI::IsMember({"auto", "exemplars", "patches"}))
+        ->capture_default_str();
     app.add_option("--overlay", command.overlay_folder, "folder for pictures of what was found and why");
     app.add_option("--report", command.report, "HTML page to write");
     add_threads(app, command.threads);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ism/detect/exemplar_segmenter.hpp"
 #include "ism/detect/recognition.hpp"
 #include "ism/detect/template_score.hpp"
 
@@ -25,9 +26,19 @@ struct ChosenRescorer {
     }
 };
 
+/// A segmenter chosen at run time.
+struct ChosenSegmenter {
+    bool exemplars = false;
+    [[nodiscard]] ism::Segmentation segment(const ism::Detection& hypothesis, const ism::Scene& scene) const {
+        return exemplars ? ism::ExemplarSegmenter{}.segment(hypothesis, scene)
+                         : ism::PatchSegmenter{}.segment(hypothesis, scene);
+    }
+};
+
 /// A verifier chosen at run time.
 struct ChosenVerifier {
     bool suppression = false;
+    [[nodiscard]] bool needs_masks() const { return !suppression; }
     [[nodiscard]] std::vector<ism::Verified> verify(std::span<const ism::Detection> hypotheses,
                                                     const ism::Scene& scene) const {
         return suppression ? ism::NonMaximumSuppression{.max_inside = 0.5, .across_classes = false}.verify(
@@ -38,7 +49,7 @@ struct ChosenVerifier {
 
 template <ism::VoteSpaceType Space>
 ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
-    ism::Recognition<Space, ism::EpanechnikovKernel, ChosenRescorer, ism::PatchSegmenter, ChosenVerifier>
+    ism::Recognition<Space, ism::EpanechnikovKernel, ChosenRescorer, ChosenSegmenter, ChosenVerifier>
         recognition;
     // Templates judge what votes propose, also weakly, and place boxes that are apart; words judge what votes
     // are sure of.
@@ -46,6 +57,9 @@ ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
         search.rescorer == "template" || (search.rescorer == "auto" && !scene.model.templates.empty());
     ism::expect(!templates || !scene.model.templates.empty(), "--rescore template", "a model with templates",
                 "one without");
+    ism::expect(search.segmenter != "exemplars" || !scene.model.exemplars.empty(), "--segment exemplars",
+                "a model with exemplars", "one without");
+    recognition.segmenter.exemplars = search.segmenter != "patches";
     using Kind = ChosenRescorer::Kind;
     recognition.rescorer.kind = templates                   ? Kind::templates
                                 : search.rescorer == "none" ? Kind::none

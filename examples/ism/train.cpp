@@ -13,6 +13,7 @@
 #include "ism/model_file/model_file.hpp"
 #include "ism/train/extract_training_features.hpp"
 #include "ism/train/learn.hpp"
+#include "ism/train/learn_exemplars.hpp"
 #include "ism/train/learn_templates.hpp"
 #include "ism/train/vote_agreement.hpp"
 
@@ -89,8 +90,10 @@ void run_train(const TrainCommand& command) {
                                        options.features, options.threads, options.progress);
     if (known) features = ism::append(std::move(known->features), std::move(features));
     ism::Model model = ism::learn(features, options);
-    if (templates)
+    if (templates) {
         model = ism::learn_templates(std::move(model), features, {}, options.threads, options.progress);
+        model = ism::learn_exemplars(std::move(model), features, 300, options.threads);
+    }
     ism::save_model(command.model, model, command.growable || known ? &features : nullptr);
     progress.clear();
 

@@ -35,6 +35,8 @@ refused_in_a_line "train with --growable" "$ism" train --data toys/train.json -o
 "$ism" train --data toys/train.json -o own --codebook per-class --class car --class mug --growable >own.txt
 "$ism" train --data toys/train.json -o own-more --add-to own --class duck >own-more.txt
 says "classes      car, mug, duck" own-more.txt
+"$ism" info own-more >own-info.txt
+says "exemplars       18" own-info.txt
 
 # What contradicts the model.
 refused_in_a_line "--detector excludes --add-to" "$ism" train --data toys/train.json -o out --add-to two --detector dog

@@ -42,6 +42,7 @@ refused_in_a_line "--rule coco: expected no --iou, got both" \
 "$ism" info model-1 >info.txt
 says "hessian-laplace" info.txt
 says "car, mug, duck, robot" info.txt
+says "exemplars       24" info.txt
 
 says "templates       yes" info.txt
 
@@ -54,6 +55,11 @@ says "templates       no" plain.txt
 "$ism" detect --model plain --data toys/test.json -o found-plain --rescore none --verify mdl >/dev/null
 refused_in_a_line "--rescore template: expected a model with templates, got one without" \
     "$ism" detect --model plain --data toys/test.json -o out --rescore template
+refused_in_a_line "--segment exemplars: expected a model with exemplars, got one without" \
+    "$ism" detect --model plain --data toys/test.json -o out --segment exemplars
+"$ism" detect --model model-1 --data toys/test.json -o found-patches --space ji3sm3 --segment patches >/dev/null
+! cmp -s found-patches found-1 || fail "--segment changes nothing"
+cmp <(grep -o '"bbox":[^]]*' found-patches) <(grep -o '"bbox":[^]]*' found-1) || fail "--segment changes boxes"
 ! cmp -s found-plain found-1 || fail "templates change nothing"
 
 # One class alone, and a class's own words.

@@ -75,6 +75,12 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
         model.templates.push_back(one);
     }
     model.template_calibration.curves = {{2, -1}, {1.0 / 7, 0}};
+    for (const std::uint32_t object : {0u, 2u}) {
+        ism::MaskExemplar one{object, {}};
+        for (std::size_t k = 0; k < ism::exemplar_bytes; ++k)
+            one.cells.push_back(static_cast<std::uint8_t>(random.index(256)));
+        model.exemplars.push_back(one);
+    }
     model.training = {12, 3456, 789};
     return model;
 }
@@ -104,6 +110,7 @@ void check_equal(const ism::Model& a, const ism::Model& b) {
     CHECK(a.calibration.curves == b.calibration.curves);
     CHECK(a.templates == b.templates);
     CHECK(a.template_calibration.curves == b.template_calibration.curves);
+    CHECK(a.exemplars == b.exemplars);
     CHECK(a.training == b.training);
     REQUIRE(a.shapes.objects.size() == b.shapes.objects.size());
     for (std::size_t i = 0; i < a.shapes.objects.size(); ++i) {
@@ -234,6 +241,7 @@ TEST_CASE("A model that could not be read again is not written") {
     refuses("template_weights", [](ism::Model& m) { m.templates[1].weights.pop_back(); });
     refuses("template_grids", [](ism::Model& m) { m.templates[0].grid.rows = 0; });
     refuses("spread of a template's aspect", [](ism::Model& m) { m.templates[0].log_aspect_spread = 0; });
+    refuses("object of an exemplar", [](ism::Model& m) { m.exemplars[1].object = 3; });
     refuses("finite", [](ism::Model& m) { m.templates[0].bias = std::nanf(""); });
 }
 
@@ -307,12 +315,18 @@ TEST_CASE("A model file that contradicts itself is refused") {
          [](File& f) {
              f.tensors["calibration"] = ism::make_tensor<double>(std::vector<double>{1, 2}, {1, 2});
          }},
+        {": object of an exemplar: expected below 3, got 4000000000",
+         [](File& f) { set(f, "exemplar_objects", 1, 4000000000u); }},
+        {": tensor 'exemplar_cells'",
+         [](File& f) {
+             f.tensors["exemplar_cells"] = ism::make_tensor<std::uint8_t>({}, {2, 0});
+         }},
         {": image names: expected 3, got 1", [](File& f) { f.metadata["images"] = R"(["a"])"; }},
         {": class names: expected each once", [](File& f) { f.metadata["class_names"] = R"(["a","a"])"; }},
         {": class names: expected 1 or more", [](File& f) { f.metadata["class_names"] = "[]"; }},
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 7, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
+        {": format version: expected 8, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
         {": expected metadata 'channels'", [](File& f) { f.metadata.erase("channels"); }},
         {", channels: expected an array of 1 or more", [](File& f) { f.metadata["channels"] = "[]"; }},
         {", channels: dimension", [](File& f) { f.metadata["channels"] = "[{}]"; }},

@@ -11,6 +11,7 @@
 #include "ism/hog/box_template.hpp"
 #include "ism/model/box_classifier.hpp"
 #include "ism/model/calibration.hpp"
+#include "ism/model/mask_exemplar.hpp"
 #include "ism/model/shape_model.hpp"
 
 namespace ism {
@@ -35,10 +36,11 @@ struct TrainingSummary {
 struct Model {
     std::vector<Channel> channels = {};
     ShapeModel shapes = {};
-    BoxClassifier box_classifier = {};        ///< may be empty
-    Calibration calibration = {};             ///< of votes and box classifier; may be empty
-    std::vector<BoxTemplate> templates = {};  ///< one a class; may be empty
-    Calibration template_calibration = {};    ///< of the templates' scores; may be empty
+    BoxClassifier box_classifier = {};         ///< may be empty
+    Calibration calibration = {};              ///< of votes and box classifier; may be empty
+    std::vector<BoxTemplate> templates = {};   ///< one a class; may be empty
+    Calibration template_calibration = {};     ///< of the templates' scores; may be empty
+    std::vector<MaskExemplar> exemplars = {};  ///< whose masks are lent; may be empty
     TrainingSummary training = {};
 
     /// @brief Number of words of all channels.

@@ -13,10 +13,11 @@
 #include "ism/hog/box_template.hpp"
 #include "ism/model/box_classifier.hpp"
 #include "ism/model/calibration.hpp"
+#include "ism/model/mask_exemplar.hpp"
 #include "ism/model_file/shape_tensors.hpp"
 #include "ism/model_file/tensor.hpp"
 
-/// What judges hypotheses, as tensors.
+/// What judges hypotheses and cuts them out, as tensors.
 namespace ism::detail {
 
 inline void box_classifier_to_tensors(const BoxClassifier& classifier, TensorFile& file) {
@@ -133,6 +134,31 @@ inline void templates_to_tensors(std::span<const BoxTemplate> templates, TensorF
     expect<FileError>(first == weights.size(), lazy_text(file.source, ": template_weights"), first,
                       weights.size());
     return templates;
+}
+
+inline void exemplars_to_tensors(std::span<const MaskExemplar> exemplars, TensorFile& file) {
+    std::vector<std::uint32_t> objects;
+    std::vector<std::uint8_t> all_cells;
+    for (const auto& [object, cells] : exemplars) {
+        objects.push_back(object);
+        all_cells.insert(all_cells.end(), cells.begin(), cells.end());
+    }
+    file.tensors["exemplar_objects"] = make_tensor<std::uint32_t>(objects, {objects.size()});
+    file.tensors["exemplar_cells"] = make_tensor<std::uint8_t>(all_cells, {objects.size(), exemplar_bytes});
+}
+
+[[nodiscard]] inline std::vector<MaskExemplar> exemplars_from_tensors(const TensorFile& file,
+                                                                      std::size_t object_count) {
+    const auto objects = values<std::uint32_t>(file, "exemplar_objects", {any_length});
+    const auto cells = values<std::uint8_t>(file, "exemplar_cells", {objects.size(), exemplar_bytes});
+    std::vector<MaskExemplar> exemplars;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        expect<FileError>(objects[i] < object_count, lazy_text(file.source, ": object of an exemplar"),
+                          lazy_text("below ", object_count), objects[i]);
+        const auto own = cells.subspan(i * exemplar_bytes, exemplar_bytes);
+        exemplars.push_back({objects[i], {own.begin(), own.end()}});
+    }
+    return exemplars;
 }
 
 }  // namespace ism::detail

@@ -27,7 +27,7 @@ namespace ism {
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 7;
+inline constexpr std::int64_t model_format_version = 8;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {
@@ -93,8 +93,8 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
 [[nodiscard]] inline TensorFile model_to_tensors(const Model& model, const std::string& source) {
     TensorFile file{.source = source};
     // A member that is added to Model does not compile here until it is kept too.
-    const auto& [channels, shapes, box_classifier, calibration, templates, template_calibration, training] =
-        model;
+    const auto& [channels, shapes, box_classifier, calibration, templates, template_calibration, exemplars,
+                 training] = model;
     expect<FileError>(model.words() > 0 && shapes.occurrences.size() == model.words(),
                       lazy_text(source, ": words with occurrences"), model.words(),
                       shapes.occurrences.size());
@@ -121,6 +121,7 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
     calibration_to_tensors(calibration, "calibration", file);
     templates_to_tensors(templates, file);
     calibration_to_tensors(template_calibration, "template_calibration", file);
+    exemplars_to_tensors(exemplars, file);
     return file;
 }
 
@@ -152,6 +153,7 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
     model.calibration = calibration_from_tensors(file, "calibration", classes);
     model.templates = templates_from_tensors(file, classes);
     model.template_calibration = calibration_from_tensors(file, "template_calibration", classes);
+    model.exemplars = exemplars_from_tensors(file, model.shapes.objects.size());
     return model;
 }
 

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "ism/core/box_region.hpp"
+#include "ism/core/color_bins.hpp"
+#include "ism/core/guided_filter.hpp"
+#include "ism/core/resize_area.hpp"
+#include "ism/detect/exemplar_prior.hpp"
+#include "ism/detect/scene.hpp"
+#include "ism/detect/segment.hpp"
+
+namespace ism {
+
+/// @brief Cuts an object out by its box: the masks of training objects that look like it part by part give a
+/// prior, histograms of figure and ground tell what the colours of this picture say, and a guided filter
+/// brings the result to the edges of the picture. Where the model has no exemplar of the class (its labels
+/// have no masks) votes cut it out.
+struct ExemplarSegmenter {
+    ExemplarOptions exemplars = {};
+    double margin = 0.25;         ///< how far beyond the box to look, in parts of its sides
+    int max_side_px = 160;        ///< colours are compared at this size, or the picture's where it is smaller
+    int color_rounds = 3;         ///< histograms from the prior by exemplars alone …
+    int agreement_rounds = 2;     ///< … and from that by those that agree with the colours
+    double min_prior = 0.02;      ///< of figure and of ground
+    double max_log_ratio = 3;     ///< what a colour can say
+    double filter_radius = 0.02;  ///< in parts of the root of the box's area
+    double filter_epsilon = 1e-4;  ///< variance of brightness (0 … 1) that is no edge
+    PatchSegmenter votes = {};     ///< for classes without exemplars
+
+    [[nodiscard]] Segmentation segment(const Detection& hypothesis, const Scene& scene) const;
+};
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const ExemplarSegmenter& options) {
+    check(options.exemplars);
+    check(options.votes);
+    const auto in_range = [](const char* name, double value, double least, double most, const char* range) {
+        expect(value >= least && value <= most, name, range, value);
+    };
+    in_range("ExemplarSegmenter::margin", options.margin, 0, 10, "0 ... 10");
+    in_range("ExemplarSegmenter::max_side_px", options.max_side_px, 16, 65536, "16 ... 65536");
+    in_range("ExemplarSegmenter::color_rounds", options.color_rounds, 0, 100, "0 ... 100");
+    in_range("ExemplarSegmenter::agreement_rounds", options.agreement_rounds, 0, 100, "0 ... 100");
+    in_range("ExemplarSegmenter::min_prior", options.min_prior, 1e-6, 0.5, "1e-6 ... 0.5");
+    in_range("ExemplarSegmenter::max_log_ratio", options.max_log_ratio, 0, 100, "0 ... 100");
+    in_range("ExemplarSegmenter::filter_radius", options.filter_radius, 0, 1, "0 ... 1");
+    in_range("ExemplarSegmenter::filter_epsilon", options.filter_epsilon, 1e-9, 1e3, "1e-9 ... 1e3");
+}
+
+inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, const Scene& scene) const {
+    const Model& model = scene.model;
+    const Box& box = hypothesis.box;
+    std::vector<std::uint32_t> among;
+    for (std::uint32_t e = 0; e < model.exemplars.size(); ++e)
+        if (model.shapes.objects[model.exemplars[e].object].class_index == hypothesis.class_index)
+            among.push_back(e);
+    if (among.empty() || !(box.area() >= 1)) return votes.segment(hypothesis, scene);
+
+    const RgbImage gray_as_color = scene.frame.color.empty() ? colors_of(scene.frame) : RgbImage();
+    const RgbImage& color = scene.frame.color.empty() ? gray_as_color : scene.frame.color;
+    const BoxRegion region(box, margin, color.width(), color.height());
+    std::vector<double> sizes{1};
+    if (exemplars.size_step > 0)
+        sizes.insert(sizes.end(), {1 - exemplars.size_step, 1 + exemplars.size_step});
+    const ExemplarPrior lenders(model, among, describe_exemplar(color, box, sizes), exemplars);
+
+    // The region in the size that colours are compared at.
+    const double zoom = std::min(1.0, double(max_side_px) / std::max(region.width, region.height));
+    const int width = std::max(2, int(std::lround(region.width * zoom))),
+              height = std::max(2, int(std::lround(region.height * zoom)));
+    const std::vector<float> rgb =
+        resize_area(region_colors(color, region), region.width, region.height, 3, width, height);
+    const ColorBins bins(rgb);
+
+    // Pixels of it as samples of the prior, and back.
+    constexpr double sample = 1.0 / ExemplarPrior::samples;
+    const double cell_width = box.width / exemplar_cells, cell_height = box.height / exemplar_cells;
+    const double sx = double(width) / region.width, sy = double(height) / region.height;
+    const auto log_odds = [&](const GrayImage& prior) {
+        std::vector<float> odds;
+        odds.reserve(std::size_t(width) * std::size_t(height));
+        const float least = float(min_prior);
+        for (int y = 0; y < height; ++y) {
+            const double py = region.y + (y + 0.5) / sy;
+            const float v = float(((py - box.y) / cell_height + ExemplarPrior::margin) / sample - 0.5);
+            for (int x = 0; x < width; ++x) {
+                const double px = region.x + (x + 0.5) / sx;
+                const float u = float(((px - box.x) / cell_width + ExemplarPrior::margin) / sample - 0.5);
+                const bool inside = u > -0.5f && v > -0.5f && u < ExemplarPrior::side - 0.5f &&
+                                    v < ExemplarPrior::side - 0.5f;
+                const float p = std::clamp(inside ? sample_bilinear(prior, u, v) : 0.0f, least, 1 - least);
+                odds.push_back(std::log(p / (1 - p)));
+            }
+        }
+        return odds;
+    };
+    const auto as_samples = [&](const GrayImage& figure) {
+        GrayImage samples(ExemplarPrior::side, ExemplarPrior::side,
+                          0.5f);  // outside the picture nothing is known
+        for (int y = 0; y < samples.height(); ++y) {
+            const double py = box.y + ((y + 0.5) * sample - ExemplarPrior::margin) * cell_height - region.y;
+            for (int x = 0; x < samples.width(); ++x) {
+                const double px =
+                    box.x + ((x + 0.5) * sample - ExemplarPrior::margin) * cell_width - region.x;
+                if (px >= 0 && py >= 0 && px <= region.width && py <= region.height)
+                    samples(x, y) = sample_bilinear(figure, float(px * sx - 0.5), float(py * sy - 0.5));
+            }
+        }
+        return samples;
+    };
+
+    GrayImage figure(width, height);
+    std::vector<float> odds = log_odds(lenders.prior());
+    const auto probability = [](float odd) { return 1 / (1 + std::exp(-odd)); };
+    std::transform(odds.begin(), odds.end(), figure.pixels().begin(), probability);
+    for (int round = 0; round < color_rounds + agreement_rounds; ++round) {
+        if (round >= color_rounds) odds = log_odds(lenders.prior(as_samples(figure)));
+        const std::vector<float> told = bins.log_ratio(figure.pixels(), float(max_log_ratio));
+        for (std::size_t i = 0; i < told.size(); ++i) figure.pixels()[i] = probability(odds[i] + told[i]);
+    }
+
+    GrayImage guide(width, height);
+    for (std::size_t i = 0; i < guide.pixels().size(); ++i)
+        guide.pixels()[i] = (0.299f * rgb[3 * i] + 0.587f * rgb[3 * i + 1] + 0.114f * rgb[3 * i + 2]) / 255;
+    const int radius = std::max(1, int(std::lround(filter_radius * std::sqrt(box.area()) * zoom)));
+    GuidedFit fit = guided_fit(guide, figure, radius, filter_epsilon);
+    const auto enlarged = [&](const GrayImage& image) {
+        return resize_area({image.pixels().begin(), image.pixels().end()}, width, height, 1, region.width,
+                           region.height);
+    };
+    const std::vector<float> slope = enlarged(fit.slope), offset = enlarged(fit.offset);
+
+    Segmentation result{.x = region.x,
+                        .y = region.y,
+                        .figure = GrayImage(region.width, region.height),
+                        .ground = GrayImage(region.width, region.height),
+                        .mask = Mask(region.width, region.height)};
+    std::size_t i = 0;
+    for (int y = 0; y < region.height; ++y)
+        for (int x = 0; x < region.width; ++x, ++i) {
+            const float p =
+                std::clamp(slope[i] * scene.frame.gray(region.x + x, region.y + y) + offset[i], 0.0f, 1.0f);
+            result.figure(x, y) = p, result.ground(x, y) = 1 - p;
+            result.mask(x, y) = p > 0.5f;
+        }
+    return result;
+}
+
+}  // namespace ism

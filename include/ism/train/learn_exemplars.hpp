@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "ism/core/error.hpp"
+#include "ism/core/thread_pool.hpp"
+#include "ism/model/describe_exemplar.hpp"
+#include "ism/train/describe_object.hpp"
+#include "ism/train/training_features.hpp"
+
+namespace ism {
+
+/// @brief Adds to a model the training objects that lend their masks (ExemplarSegmenter), from the same
+/// training features, whose pixels were kept (TrainingFeatureOptions::pixels). An object without a mask of
+/// its own is none.
+/// @param max_of_class  of more objects of a class every second, third … is taken
+/// @throws Error where the model is of other objects, or no image has pixels.
+[[nodiscard]] inline Model learn_exemplars(Model model, const TrainingFeatures& features,
+                                           std::size_t max_of_class = 300, unsigned threads = 0) {
+    expect(model.shapes.objects.size() == features.objects.size(), "exemplars: objects of the model",
+           features.objects.size(), model.shapes.objects.size());
+    expect(max_of_class > 0, "exemplars: objects of a class", "1 or more", 0);
+    struct Candidate {
+        std::uint32_t object = 0;
+        const TrainingView* view = nullptr;
+        ObjectLabel label = {};
+    };
+    std::vector<std::vector<Candidate>> of_class(features.class_names.size());
+    bool pixels = false;
+    for (const TrainingView& view : features.views) {
+        if (view.pixels.empty()) continue;
+        pixels = true;
+        for (std::uint32_t object = view.first_object; object < view.end_object; ++object) {
+            const ObjectLabel& label = view.labels[object - view.first_object];
+            const Mask whole_box = object_mask({.box = label.box}, view.width, view.height);
+            if (describe_object(label, whole_box, {}).mask != features.objects[object].mask)
+                of_class[label.class_index].push_back({object, &view, label});
+        }
+    }
+    expect(pixels, "exemplars: training images with pixels", "1 or more", 0);
+    std::vector<Candidate> chosen;
+    for (const auto& candidates : of_class) {
+        const std::size_t step = (candidates.size() + max_of_class - 1) / max_of_class;
+        for (std::size_t i = 0; i < candidates.size(); i += step) chosen.push_back(candidates[i]);
+    }
+    model.exemplars.resize(chosen.size());
+    parallel_for(chosen.size(), threads, [&](std::size_t i) {
+        const auto& [object, view, label] = chosen[i];
+        model.exemplars[i] = {object, describe_exemplar(view->pixels, label.box)};
+    });
+    return model;
+}
+
+}  // namespace ism

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+
+#include "ism/core/random.hpp"
+#include "ism/detect/exemplar_segmenter.hpp"
+#include "ism/train/learn_exemplars.hpp"
+
+namespace {
+
+/// A drawn picture (synthetic) of 240 × 160 px with a rounded body on two legs that faces left or right,
+/// striped, in two colours on a ground of a third, which differ from picture to picture.
+ism::TrainingImage animal_picture(std::uint64_t seed, bool faces_left = true, int left = 60, int top = 40) {
+    constexpr int width = 240, height = 160, w = 110, h = 80;
+    ism::Random random(seed);
+    const auto tint = [&] {
+        return ism::Rgb{std::uint8_t(random.index(200)), std::uint8_t(random.index(200)),
+                        std::uint8_t(random.index(200))};
+    };
+    const ism::Rgb ground{std::uint8_t(210 + random.index(30)), 225, std::uint8_t(200 + random.index(40))};
+    const ism::Rgb coat = tint(), stripe = tint();
+    ism::TrainingImage image{.frame = {.gray = {}, .color = ism::RgbImage(width, height)},
+                             .name = std::to_string(seed)};
+    ism::Mask mask(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const int along = x - left, u = faces_left ? along : w - 1 - along, v = y - top;
+            const bool inside = along >= 0 && along < w && v >= 0 && v < h;
+            const bool head = u < 40 && v < 34, body = u >= 25 && v >= 22 && v < 55;
+            const bool leg = v >= 50 && ((u >= 28 && u < 42) || (u >= 92));
+            mask(x, y) = inside && (head || body || leg);
+            const ism::Rgb c = mask(x, y) == 0 ? ground : (v / 9 + u / 40) % 3 == 0 ? stripe : coat;
+            const auto with_noise = [&](int value) {
+                return std::uint8_t(std::clamp(value + int(random.index(13)) - 6, 0, 255));
+            };
+            image.frame.color(x, y) = {with_noise(c.r), with_noise(c.g), with_noise(c.b)};
+        }
+    image.frame.gray = ism::to_gray(image.frame.color);
+    image.objects.push_back({0, {double(left), double(top), w, h}, mask});
+    return image;
+}
+
+/// What a box looks like in its own size.
+std::vector<ism::ExemplarView> view_of(const ism::TrainingImage& image) {
+    return {{1, ism::describe_exemplar(image.frame.color, image.objects[0].box)}};
+}
+
+/// What learn_exemplars() needs to know of images.
+ism::TrainingFeatures features_of(const std::vector<ism::TrainingImage>& images, bool pixels = true) {
+    ism::TrainingFeatures all{.class_names = {"animal", "thing"}};
+    for (const ism::TrainingImage& image : images) {
+        const int width = image.frame.gray.width(), height = image.frame.gray.height();
+        ism::TrainingView view{.width = width, .height = height};
+        view.first_object = std::uint32_t(all.objects.size());
+        for (const ism::LabelledObject& object : image.objects) {
+            view.labels.push_back(object.label());
+            all.objects.push_back(
+                ism::describe_object(object.label(), ism::object_mask(object, width, height), image.name));
+        }
+        view.end_object = std::uint32_t(all.objects.size());
+        if (pixels) view.pixels = ism::colors_of(image.frame);
+        all.views.push_back(std::move(view));
+    }
+    return all;
+}
+
+ism::Model model_of(const ism::TrainingFeatures& features, std::size_t most = 300, unsigned threads = 1) {
+    ism::Model model;
+    model.shapes.class_names = features.class_names, model.shapes.objects = features.objects;
+    return ism::learn_exemplars(std::move(model), features, most, threads);
+}
+
+const ism::Model& animals() {
+    static const ism::Model model = [] {
+        std::vector<ism::TrainingImage> images;
+        for (std::uint64_t seed = 1; seed <= 6; ++seed) images.push_back(animal_picture(seed));
+        return model_of(features_of(images));
+    }();
+    return model;
+}
+
+ism::Segmentation cut_out(const ism::Model& model, const ism::Frame& frame, const ism::Box& box,
+                          const ism::ExemplarSegmenter& segmenter = {}, std::uint32_t class_index = 0) {
+    ism::ThreadPool pool(1);
+    const ism::Scene scene{.frame = frame, .model = model, .pool = pool};
+    ism::Detection hypothesis;
+    hypothesis.class_index = class_index, hypothesis.box = box;
+    return segmenter.segment(hypothesis, scene);
+}
+
+double iou_with_truth(const ism::Segmentation& part, const ism::TrainingImage& image) {
+    const ism::Mask& truth = image.objects[0].mask;
+    return ism::mask_iou(ism::whole_mask(part, truth.width(), truth.height()), truth);
+}
+
+}  // namespace
+
+TEST_CASE("an exemplar is what its box looks like, and its mirror image what a mirror shows") {
+    const auto left = animal_picture(7, true, 65), right = animal_picture(7, false, 65);
+    const auto cells = ism::describe_exemplar(left.frame.color, left.objects[0].box);
+    REQUIRE(cells.size() == ism::exemplar_bytes);
+    const auto mirrored = ism::mirrored_exemplar(cells);
+    CHECK(ism::mirrored_exemplar(mirrored) == cells);
+    const auto other = ism::describe_exemplar(ism::mirrored(left.frame.color), left.objects[0].box);
+    double difference = 0, energy = 0, unmirrored = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        difference += std::abs(double(mirrored[i]) - other[i]);
+        unmirrored += std::abs(double(cells[i]) - other[i]);
+        energy += other[i];
+    }
+    CHECK(difference <
+          0.1 * energy);  // the picture is mirrored to the pixel, its box with it: 65 + 110 + 65 = 240
+    CHECK(unmirrored > 3 * difference);
+}
+
+TEST_CASE("the prior of a box is the mask of what looks like it, on either side") {
+    ism::Model model = animals();
+    for (const bool faces_left : {true, false}) {
+        const auto image = animal_picture(3, faces_left);
+        const ism::Box& box = image.objects[0].box;
+        const std::vector<std::uint32_t> among{0, 1, 2, 3, 4, 5};
+        const ism::ExemplarPrior lenders(model, among, view_of(image), {});
+        const ism::GrayImage prior = lenders.prior();
+        REQUIRE(prior.width() == ism::ExemplarPrior::side);
+        CHECK(std::all_of(prior.pixels().begin(), prior.pixels().end(),
+                          [](float p) { return p >= 0 && p <= 1.0001f; }));
+        std::size_t right = 0, inside = 0;
+        for (int y = 0; y < prior.height(); ++y)
+            for (int x = 0; x < prior.width(); ++x) {
+                const double cells_x = (x + 0.5) / ism::ExemplarPrior::samples - ism::ExemplarPrior::margin;
+                const double cells_y = (y + 0.5) / ism::ExemplarPrior::samples - ism::ExemplarPrior::margin;
+                const int px = int(box.x + cells_x / ism::exemplar_cells * box.width),
+                          py = int(box.y + cells_y / ism::exemplar_cells * box.height);
+                ++inside;
+                right += (prior(x, y) > 0.5f) == (image.objects[0].mask(px, py) != 0);
+            }
+        CHECK(double(right) > 0.96 * double(inside));
+    }
+}
+
+TEST_CASE("a prior of exemplars that agree with the picture follows those of two kinds that fit") {
+    // Two objects that look the same have different masks: only the picture can tell which is right.
+    auto first = animal_picture(3), second = animal_picture(3);
+    for (int y = 0; y < 90; ++y)
+        for (int x = 0; x < 240; ++x) second.objects[0].mask(x, y) = 0;
+    const ism::Model model = model_of(features_of({first, second}));
+    const std::vector<std::uint32_t> among{0, 1};
+    const ism::ExemplarPrior lenders(model, among, view_of(first), {});
+    const int middle = ism::ExemplarPrior::side / 2, above = middle - 2 * ism::ExemplarPrior::samples;
+    CHECK(lenders.prior()(middle, above) == Approx(0.5).margin(0.1));
+    const ism::ExemplarPrior own(model, std::vector<std::uint32_t>{0}, view_of(first), {});
+    const ism::ExemplarPrior others(model, std::vector<std::uint32_t>{1}, view_of(first), {});
+    CHECK(lenders.prior(own.prior())(middle, above) > 0.8);
+    CHECK(lenders.prior(others.prior())(middle, above) < 0.2);
+}
+
+TEST_CASE("objects are cut out to the pixel by exemplars of other colours") {
+    for (const std::uint64_t seed : {21, 22, 23, 24})
+        for (const bool faces_left : {true, false}) {
+            CAPTURE(seed, faces_left);
+            const auto image = animal_picture(seed, faces_left, 70, 30);
+            ism::Box box = image.objects[0].box;
+            const auto exact = cut_out(animals(), image.frame, box);
+            CHECK(iou_with_truth(exact, image) > 0.93);
+            box = {box.x + 6, box.y - 4, box.width * 0.95, box.height * 1.06};
+            CHECK(iou_with_truth(cut_out(animals(), image.frame, box), image) > 0.85);
+            std::size_t wrong = 0;
+            for (int y = 0; y < exact.mask.height(); ++y)
+                for (int x = 0; x < exact.mask.width(); ++x) {
+                    const float figure = exact.figure(x, y), ground = exact.ground(x, y);
+                    wrong +=
+                        std::abs(figure + ground - 1) > 1e-6f || (exact.mask(x, y) != 0) != (figure > ground);
+                }
+            CHECK(wrong == 0);
+        }
+}
+
+TEST_CASE("masks lie within the picture, wherever the box is, and grey pictures have some too") {
+    const auto image = animal_picture(31, true, 5, 70);
+    ism::Frame gray = image.frame;
+    gray.color = {};
+    for (const ism::Frame& frame : {image.frame, gray})
+        for (const ism::Box& box : {ism::Box{-40, -30, 110, 80},
+                                    {200, 120, 110, 80},
+                                    {5, 70, 110, 80},
+                                    {-500, 20, 30, 9},
+                                    {100, 900, 60, 40},
+                                    {10, 10, 1, 1},
+                                    {-300, -300, 900, 900},
+                                    {3.5, 4.25, 300, 2}}) {
+            CAPTURE(box.x, box.y, box.width, box.height);
+            const auto part = cut_out(animals(), frame, box);
+            CHECK(part.x >= 0);
+            CHECK(part.y >= 0);
+            CHECK(part.x + part.mask.width() <= 240);
+            CHECK(part.y + part.mask.height() <= 160);
+            CHECK(part.mask.width() >= 1);
+            CHECK(part.mask.width() == part.figure.width());
+            CHECK(part.mask.height() == part.ground.height());
+            CHECK(std::all_of(part.figure.pixels().begin(), part.figure.pixels().end(),
+                              [](float p) { return p >= 0 && p <= 1; }));
+        }
+    CHECK(iou_with_truth(cut_out(animals(), gray, image.objects[0].box), image) > 0.8);
+}
+
+TEST_CASE("labels without masks are no exemplars, and their class is cut out by its votes") {
+    auto animal = animal_picture(1), boxes = animal_picture(2), things = animal_picture(3);
+    boxes.objects[0].mask = {};
+    things.objects[0].class_index = 1, things.objects[0].mask = {};
+    const auto features = features_of({boxes, animal, things});
+    const ism::Model model = model_of(features);
+    REQUIRE(model.exemplars.size() == 1);
+    CHECK(model.exemplars[0].object == 1);
+    ism::ThreadPool pool(1);
+    const ism::Scene scene{.frame = things.frame, .model = model, .pool = pool};
+    ism::Detection hypothesis;
+    hypothesis.class_index = 1, hypothesis.box = things.objects[0].box;
+    const auto by_votes = ism::PatchSegmenter{}.segment(hypothesis, scene);
+    const auto got = ism::ExemplarSegmenter{}.segment(hypothesis, scene);
+    CHECK(got.mask == by_votes.mask);
+    CHECK(got.figure == by_votes.figure);
+}
+
+TEST_CASE("exemplars are the same for any number of threads, and of many every second or third is taken") {
+    std::vector<ism::TrainingImage> images;
+    for (std::uint64_t seed = 1; seed <= 7; ++seed) images.push_back(animal_picture(seed));
+    const auto features = features_of(images);
+    CHECK(model_of(features, 300, 1).exemplars == model_of(features, 300, 2).exemplars);
+    const ism::Model few = model_of(features, 3);
+    REQUIRE(few.exemplars.size() == 3);
+    CHECK(few.exemplars[1].object == 3);
+    CHECK(few.exemplars[2].object == 6);
+}
+
+TEST_CASE("what exemplars cannot be learnt or used with is refused by name") {
+    const auto features = features_of({animal_picture(1)}, false);
+    CHECK_THROWS_WITH(model_of(features),
+                      "exemplars: training images with pixels: expected 1 or more, got 0");
+    CHECK_THROWS_WITH(ism::learn_exemplars({}, features),
+                      Catch::Contains("exemplars: objects of the model: expected 1, got 0"));
+    CHECK_THROWS_WITH(model_of(features, 0), Catch::Contains("expected 1 or more"));
+    using Segmenter = ism::ExemplarSegmenter;
+    const auto error = [](const char* name, const Segmenter& options) {
+        CHECK_THROWS_WITH(ism::check(options), Catch::Contains(name));
+    };
+    CHECK_NOTHROW(ism::check(Segmenter{}));
+    error("ExemplarOptions::max_exemplars", {.exemplars = {.max_exemplars = 0}});
+    error("ExemplarOptions::size_step", {.exemplars = {.size_step = 0.2}});
+    error("ExemplarOptions::sharpness", {.exemplars = {.sharpness = -1}});
+    error("ExemplarOptions::shift_cost", {.exemplars = {.shift_cost = 3}});
+    error("ExemplarOptions::agreement", {.exemplars = {.agreement = std::nan("")}});
+    error("ExemplarSegmenter::margin", {.margin = -1});
+    error("ExemplarSegmenter::max_side_px", {.max_side_px = 2});
+    error("ExemplarSegmenter::color_rounds", {.color_rounds = -1});
+    error("ExemplarSegmenter::agreement_rounds", {.agreement_rounds = -1});
+    error("ExemplarSegmenter::min_prior", {.min_prior = 0});
+    error("ExemplarSegmenter::max_log_ratio", {.max_log_ratio = -1});
+    error("ExemplarSegmenter::filter_radius", {.filter_radius = 2});
+    error("ExemplarSegmenter::filter_epsilon", {.filter_epsilon = 0});
+    error("PatchSegmenter::margin", {.votes = {.margin = -1}});
+}
