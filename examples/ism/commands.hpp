@@ -48,6 +48,7 @@ struct SearchOptions {
         segmenter{default_segmenter};
     std::optional<double> keep = {};  ///< none = the library's
     double min_score = 0;             ///< least probability of what is told
+    bool explain = false;             ///< also tell what templates saw, to be drawn
 };
 
 struct DetectCommand {

@@ -112,7 +112,9 @@ void run_detect(const DetectCommand& command) {
         pool.for_each(count, [&](std::size_t i, unsigned worker) {
             const ism::DatasetImage& image = dataset.images[i];
             const ism::Frame frame = ism::read_frame(image);
-            const ism::Detections found = find_objects(matchers[worker].scene(frame), command.search);
+            SearchOptions search = command.search;
+            search.explain = overlays || i < sections.size();
+            const ism::Detections found = find_objects(matchers[worker].scene(frame), search);
             results[i] = ism::to_results(found, image, ids);
             if (overlays || i < sections.size()) {
                 const ism::RgbImage picture = ism::read_rgb(image.file);

@@ -18,10 +18,12 @@ namespace {
 /// A rescorer chosen at run time.
 struct ChosenRescorer {
     enum class Kind { none, boxes, templates } kind = Kind::none;
+    bool explain = false;
     [[nodiscard]] std::vector<ism::Detection> rescore(std::vector<ism::Detection> hypotheses,
                                                       const ism::Scene& scene) const {
         if (kind == Kind::boxes) return ism::BoxClassifierScore{}.rescore(std::move(hypotheses), scene);
-        if (kind == Kind::templates) return ism::TemplateScore{}.rescore(std::move(hypotheses), scene);
+        if (kind == Kind::templates)
+            return ism::TemplateScore{.explain = explain}.rescore(std::move(hypotheses), scene);
         return hypotheses;
     }
 };
@@ -64,6 +66,7 @@ ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
     recognition.rescorer.kind = templates                   ? Kind::templates
                                 : search.rescorer == "none" ? Kind::none
                                                             : Kind::boxes;
+    recognition.rescorer.explain = search.explain;
     recognition.verifier.suppression = search.verifier == "nms" || (search.verifier == "auto" && templates);
     if (templates)
         recognition.options.max_size_px = std::hypot(scene.frame.gray.width(), scene.frame.gray.height());

@@ -13,6 +13,7 @@
 #include "ism/core/random.hpp"
 #include "ism/core/resize_area.hpp"
 #include "ism/hog/describe_cells.hpp"
+#include "ism/hog/search_box.hpp"
 
 namespace {
 
@@ -132,6 +133,33 @@ TEST_CASE("a mirror image has mirrored cells") {
     const auto expected = ism::mirrored_cells(cells, grid);
     for (std::size_t k = 0; k < cells.size(); ++k) CHECK(mirrored[k] == Approx(expected[k]).margin(2e-3));
     CHECK(ism::mirrored_cells(expected, grid) == cells);
+}
+
+TEST_CASE("what cells say adds up to the template's score, and is mirrored where the image is") {
+    const auto image = blobs(160, 96, 5), other_image = ism::mirrored(image);
+    const ism::Box box{24, 16, 56, 40}, other{160 - 24 - 56, 16, 56, 40};
+    ism::BoxTemplate form{.grid = {7, 5, true}, .bias = -0.7f, .log_aspect = 1, .log_aspect_spread = 0.5f};
+    ism::Random random(6);
+    for (std::size_t k = 0; k < form.grid.cells() * ism::cell_numbers; ++k)
+        form.weights.push_back(float(random.normal()));
+    ism::ThreadPool pool(1);
+    ism::CellScratch scratch;
+    const ism::HogPyramid pyramid(image, 0, pool), mirrored(other_image, 0, pool);
+    const ism::TemplateScorer scorer(form);
+    for (const bool side : {false, true}) {
+        const auto cells = scorer.explain(pyramid, box, side, scratch);
+        REQUIRE(cells.shares.size() == 9 * 7);
+        double sum = 0;
+        for (const float share : cells.shares) sum += double(share);
+        CHECK(sum == Approx(scorer.of_side(pyramid, box, side, scratch)).margin(1e-3));
+        const auto seen = scorer.explain(mirrored, other, !side, scratch);
+        for (std::size_t j = 0; j < 7; ++j)
+            for (std::size_t i = 0; i < 9; ++i)
+                CHECK(seen.shares[j * 9 + 8 - i] == Approx(cells.shares[j * 9 + i]).margin(0.03));
+    }
+    CHECK(form.grid.cell(box, 0) == ism::Box{16, 8, 8, 8});  // of the ring
+    CHECK(form.grid.cell(box, 10) == ism::Box{24, 16, 8, 8});
+    CHECK(form.grid.cell(box, 9 * 7 - 1) == ism::Box{80, 56, 8, 8});
 }
 
 TEST_CASE("a box twice as large in an image twice as large has about the same cells") {

@@ -64,6 +64,26 @@ TEST_CASE("The four images show votes, both maps on one scale, and the figure un
     CHECK(row == ism::draw_explanation(image, some_detections(), 0, names, plain));
 }
 
+TEST_CASE("Cells of a template are green where they speak for the class, red where against it") {
+    ism::Detections detections = some_detections();
+    const RgbImage image = some_picture();
+    const RgbImage four = ism::draw_explanation(image, detections, 0, names, plain);
+    ism::CellShares& cells = detections.objects[0].cells;
+    cells = {{2, 1, false}, {0.5f, -0.25f}};  // the left and the right half of the box
+    const RgbImage five = ism::draw_explanation(image, detections, 0, names, plain);
+    REQUIRE(five.width() == four.width() + (four.width() - 200) / 3);
+    const auto second = [&](int x, int y) {
+        return five((four.width() - 200) / 3 + 2 * x, five.height() - 120 + 2 * y);
+    };
+    const Rgb grey = ism::mix(ism::grey_color(ism::brightness(image(45, 35))), ism::white, 0.25);
+    CHECK(second(45, 35) == ism::mix(grey, ism::detail::for_color, 0.85));
+    CHECK(second(55, 35).r > second(55, 35).g);
+    CHECK(second(30, 20).r == second(30, 20).g);
+    ism::OverlayOptions options = plain;
+    options.cells = false;
+    CHECK(ism::draw_explanation(image, detections, 0, names, options) == four);
+}
+
 TEST_CASE("A close-up shows the detection and its surroundings as the whole image would") {
     const ism::Detections detections = some_detections();
     const ism::Box part = ism::detail::surroundings(detections, detections.objects[0], 100, 60, 3);

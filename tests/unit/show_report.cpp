@@ -212,6 +212,19 @@ TEST_CASE("The section on an image tells why each detection was found") {
     CHECK(markup_fault(html).empty());
     CHECK(contains(html, "3 detections"));
     CHECK(contains(html, "the strongest 2 of 3"));
+    CHECK_FALSE(contains(html, "against"));
+    detections.objects[0].cells = {{2, 1, false}, {0.5f, -0.25f}};
+    const std::string with_cells =
+        ism::to_html({.title = "t",
+                      .sections = {ism::detection_section("a.png", ism::RgbImage(40, 20), detections, names,
+                                                          {.rows = 2})}});
+    CHECK(markup_fault(with_cells).empty());
+    CHECK(contains(with_cells, "<title>0.5</title>"));
+    CHECK(contains(with_cells, "<title>-0.25</title>"));
+    CHECK(contains(with_cells, ">against</text>"));
+    CHECK(contains(with_cells, "together 0.25"));
+    CHECK_THROWS_WITH(ism::cells_plot(ism::RgbImage(40, 20), object),
+                      Catch::Contains("cells of a detection"));
     CHECK(
         markup_fault(ism::to_html({.title = "",
                                    .summary = {},

@@ -70,6 +70,15 @@ TEST_CASE("templates judge and place what votes propose") {
         REQUIRE_FALSE(best.support.empty());
         for (const ism::Support& s : best.support)
             CHECK(model.shapes.occurrence(s.occurrence).class_index == class_index);
+        CHECK(best.cells.shares.empty());
+        auto telling = recognition;
+        telling.rescorer.explain = true;
+        const ism::Detection told = ism::detect(model, test.frame, telling, 1).objects.front();
+        CHECK(told.box == best.box);
+        CHECK(told.cells.grid == model.templates[class_index].grid);
+        double sum = 0;
+        for (const float share : told.cells.shares) sum += double(share);
+        CHECK(std::exp(sum) == Approx(told.score).epsilon(1e-4));
         auto probable = recognition;
         probable.options.min_probability = 0.5;
         const auto sure = ism::detect(model, test.frame, probable, 1);

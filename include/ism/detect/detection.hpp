@@ -12,6 +12,7 @@
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
 #include "ism/feature/feature.hpp"
+#include "ism/hog/box_template.hpp"
 
 namespace ism {
 
@@ -56,6 +57,7 @@ struct Detection {
     std::optional<Point3> position_m;  ///< in the camera frame; where camera and depth are known
     Segmentation segmentation;         ///< figure and ground maps and mask
     std::vector<Support> support;      ///< why it was found, strongest first
+    CellShares cells;                  ///< what its template saw; empty unless TemplateScore::explain
 };
 
 /// @brief How much each station of the way had to do, and how long it took.

@@ -28,6 +28,7 @@ struct TemplateScore {
     std::size_t max_proposals = 60;  ///< hypotheses that are asked, the strongest
     std::size_t max_boxes = 12;      ///< of a class that are placed by searching
     double min_agreement = 0.5;      ///< IoU of the box that a vote stands for with that of the detection
+    bool explain = false;            ///< also tell which cells of a template speak for and against
 
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene& scene) const;
 };
@@ -75,14 +76,17 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     const RgbImage& color = scene.frame.color.empty() ? gray_as_color : scene.frame.color;
     const HogPyramid pyramid(color, finest_level(proposals), scene.pool);
     std::vector<Detection> found;
-    for (std::uint32_t c = 0; c < model.templates.size(); ++c)
-        for (const SearchedBox& box : propose_boxes(TemplateScorer(model.templates[c]), c, pyramid, proposals,
-                                                    max_boxes, scene.pool)) {
+    CellScratch scratch;
+    for (std::uint32_t c = 0; c < model.templates.size(); ++c) {
+        const TemplateScorer scorer(model.templates[c]);
+        for (const SearchedBox& box : propose_boxes(scorer, c, pyramid, proposals, max_boxes, scene.pool)) {
             Detection detection;
             detection.class_index = c, detection.score = std::exp(box.score), detection.box = box.box;
             detection.probability = model.template_calibration.probability(c, detection.score);
+            if (explain) detection.cells = scorer.explain(pyramid, box.box, box.mirrored, scratch);
             found.push_back(std::move(detection));
         }
+    }
     const DetectOptions options{.max_size_px = std::hypot(color.width(), color.height())};
     const auto votes = cast_votes<Jism>(scene, options.matching, vote_limits(scene, options));
     scene.pool.for_each(found.size(), [&](std::size_t i, unsigned) {

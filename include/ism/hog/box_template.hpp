@@ -18,7 +18,21 @@ struct BoxGrid {
     [[nodiscard]] int all_columns() const { return columns + 2 * int(ring); }
     [[nodiscard]] int all_rows() const { return rows + 2 * int(ring); }
     [[nodiscard]] std::size_t cells() const { return std::size_t(all_columns()) * std::size_t(all_rows()); }
+    /// @brief Where cell i, counted row after row, lies in an image; the ring lies around the box.
+    [[nodiscard]] Box cell(const Box& box, std::size_t i) const {
+        const double width = box.width / columns, height = box.height / rows;
+        const int column = int(i) % all_columns() - int(ring), row = int(i) / all_columns() - int(ring);
+        return {box.x + column * width, box.y + row * height, width, height};
+    }
     [[nodiscard]] bool operator==(const BoxGrid&) const = default;
+};
+
+/// @brief What each cell of a box adds to the score of a template, row after row as the image shows them, the
+/// bias shared among them: above 0 a cell speaks for the class, and all together they are the score.
+struct CellShares {
+    BoxGrid grid = {};
+    std::vector<float> shares = {};
+    [[nodiscard]] bool operator==(const CellShares&) const = default;
 };
 
 /// @brief Numbers of a cell: 18 directions, 9 without sign, 4 norms (Felzenszwalb et al. 2010), 3 of colour.

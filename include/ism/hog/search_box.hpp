@@ -41,6 +41,19 @@ public:
         return dot(described(pyramid, box, scratch), mirrored ? mirrored_ : template_->weights) +
                template_->bias - template_->aspect_penalty(box);
     }
+    /// @brief What each cell of a box has to do with of_side().
+    [[nodiscard]] CellShares explain(const HogPyramid& pyramid, const Box& box, bool mirrored,
+                                     CellScratch& scratch) const {
+        const std::span<const float> cells = described(pyramid, box, scratch);
+        const std::span<const float> weights = mirrored ? mirrored_ : template_->weights;
+        const double rest = template_->bias - template_->aspect_penalty(box);
+        CellShares result{template_->grid, {}};
+        for (std::size_t i = 0; i < cells.size(); i += cell_numbers)
+            result.shares.push_back(
+                float(dot(cells.subspan(i, cell_numbers), weights.subspan(i, cell_numbers)) +
+                      rest / double(template_->grid.cells())));
+        return result;
+    }
 
 private:
     [[nodiscard]] std::span<const float> described(const HogPyramid& pyramid, const Box& box,

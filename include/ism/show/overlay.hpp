@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "ism/core/number_text.hpp"
+#include "ism/show/overlay_cells.hpp"
 #include "ism/show/overlay_close_up.hpp"
 #include "ism/show/overlay_panels.hpp"
 
@@ -21,6 +21,7 @@ struct OverlayOptions {
     int side_px = 640;         ///< small images are magnified a whole number of times up to this longer side
     bool close_up = true;      ///< rows show a detection and its surroundings instead of the whole image
     double circle_scales = 3;  ///< radius of a feature's circle in multiples of its scale
+    bool cells = true;         ///< rows also show what a template saw, where a detection tells it
 };
 
 namespace detail {
@@ -48,10 +49,9 @@ inline void check_segmentation(const Segmentation& part) {
 }
 
 /// The row of draw_explanation() for the whole image.
-[[nodiscard]] inline RgbImage four_panels(ImageView<const Rgb> image, const Detections& detections,
-                                          const Detection& detection,
-                                          std::span<const std::string> class_names,
-                                          const OverlayOptions& options) {
+[[nodiscard]] inline RgbImage panel_row(ImageView<const Rgb> image, const Detections& detections,
+                                        const Detection& detection, std::span<const std::string> class_names,
+                                        const OverlayOptions& options) {
     const Segmentation& part = detection.segmentation;
     detail::check_segmentation(part);
     const int factor = detail::magnification(image, options.side_px);
@@ -83,21 +83,31 @@ inline void check_segmentation(const Segmentation& part) {
             if (mask(x, y) == 0) cut(x, y) = mix(grey_color(brightness(cut(x, y))), black, 0.6);
     draw_contour(cut, mask, color, int(pen));
 
-    const std::array panels{std::move(votes), std::move(figure), std::move(ground), std::move(cut)};
+    std::vector<RgbImage> panels{std::move(votes), std::move(figure), std::move(ground), std::move(cut)};
     const std::string distance =
         is_depth(detection.depth_m) ? ", " + fixed_text(detection.depth_m, 2) + " m away" : "";
-    const std::array<std::string, 4> captions{
+    std::vector<std::string> captions{
         join_text(detection.support.size(), detection.support.size() == 1 ? " vote" : " votes", distance),
         "p(figure), brightest " + number_text(double(top), 2), "p(ground), same scale",
         mask_area(part.mask) > 0 ? "segmentation" : "no segmentation"};
-    return detail::captioned_row(panels, captions);
+    const bool cells = options.cells && !detection.cells.shares.empty();
+    if (cells) {
+        panels.insert(panels.begin() + 1, cells_panel(large, detection.cells, box));
+        captions.insert(captions.begin() + 1, "template");
+    }
+    RgbImage row = captioned_row(panels, captions);
+    if (cells)
+        draw_cells_legend(row.view().region(large.width() + 4 * int(pen), 0, large.width(), row.height()),
+                          captions[1], int(pen));
+    return row;
 }
 
 }  // namespace detail
 
-/// @brief Four images of one detection side by side: the features that voted for it, with lines to its
-/// centre; the maps p(figure) and p(ground), both on one scale whose brightest value stands in the caption;
-/// the figure in its surroundings.
+/// @brief Images of one detection side by side: the features that voted for it, with lines to its centre;
+/// where it tells them (Detection::cells), the cells of its template that spoke for and against it; the maps
+/// p(figure) and p(ground), both on one scale whose brightest value stands in the caption; the figure in its
+/// surroundings.
 /// @throws Error where there is no detection `which`, its class has no name, its votes point to features that
 /// are not there or its segmentation's parts differ in size.
 [[nodiscard]] inline RgbImage draw_explanation(ImageView<const Rgb> image, const Detections& detections,
@@ -106,12 +116,12 @@ inline void check_segmentation(const Segmentation& part) {
     expect(which < detections.objects.size(), "index of a detection",
            lazy_text("below ", detections.objects.size()), which);
     const Detection& detection = detections.objects[which];
-    if (!options.close_up) return detail::four_panels(image, detections, detection, class_names, options);
+    if (!options.close_up) return detail::panel_row(image, detections, detection, class_names, options);
     const Box part =
         detail::surroundings(detections, detection, image.width(), image.height(), options.circle_scales);
     const Detections there = detail::moved_to(detections, detection, int(part.x), int(part.y));
-    return detail::four_panels(image.region(int(part.x), int(part.y), int(part.width), int(part.height)),
-                               there, there.objects.front(), class_names, options);
+    return detail::panel_row(image.region(int(part.x), int(part.y), int(part.width), int(part.height)), there,
+                             there.objects.front(), class_names, options);
 }
 
 /// @brief All detections in one image: tinted figures with contours, boxes, class names and scores, the

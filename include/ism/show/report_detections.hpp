@@ -15,6 +15,7 @@
 #include "ism/io/png.hpp"
 #include "ism/show/overlay.hpp"
 #include "ism/show/report.hpp"
+#include "ism/show/report_cells.hpp"
 
 namespace ism {
 
@@ -94,7 +95,7 @@ struct DetectionReportOptions {
 }
 
 /// @brief A section on one image: all detections in it, then for the strongest ones the four images of
-/// draw_explanation() and why they were found.
+/// draw_explanation(), the cells of their templates where they tell them, and why they were found.
 /// @throws Error as draw_detections() and draw_explanation() do.
 [[nodiscard]] inline ReportSection detection_section(std::string title, ImageView<const Rgb> image,
                                                      const Detections& detections,
@@ -107,11 +108,14 @@ struct DetectionReportOptions {
                                              : join_text(count, " detections");
     section.parts.push_back(
         ReportImage{caption, encode_png(draw_detections(image, detections, class_names, options.overlay))});
+    OverlayOptions without_cells = options.overlay;
+    without_cells.cells = false;
     for (std::size_t i = 0; i < shown; ++i) {
         const Detection& detection = detections.objects[i];
         ReportSection why{.title = detail::label_text(detection, class_names), .folded = i > 0};
-        why.parts.push_back(ReportImage{
-            "", encode_png(draw_explanation(image, detections, i, class_names, options.overlay))});
+        why.parts.push_back(
+            ReportImage{"", encode_png(draw_explanation(image, detections, i, class_names, without_cells))});
+        if (!detection.cells.shares.empty()) why.parts.push_back(cells_plot(image, detection));
         why.parts.push_back(fact_table(detection));
         why.parts.push_back(word_table(detection, options.reasons));
         why.parts.push_back(feature_table(detections, detection, options.reasons));
