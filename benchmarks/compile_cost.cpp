@@ -83,7 +83,8 @@ Cost build_program() {
     for (const auto& entry : commands) {
         const std::string object = entry.value("output", entry.at("command").get<std::string>());
         bool ours = false;
-        for (const char* part : {"ism_program.dir", "ism_commands.dir", "ism_toys.dir", "ism_stb.dir"})
+        for (const char* part :
+             {"ism_program.dir", "ism_computing.dir", "ism_commands.dir", "ism_toys.dir", "ism_stb.dir"})
             ours = ours || object.find(part) != std::string::npos;
         if (!ours) continue;
         std::string command = entry.at("command");

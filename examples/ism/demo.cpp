@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "extractors.hpp"
 #include "input.hpp"
+#include "learning.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "spaces.hpp"
@@ -23,8 +24,6 @@
 #include "ism/evaluate/table.hpp"
 #include "ism/model_file/model_file.hpp"
 #include "ism/show/report_detections.hpp"
-#include "ism/train/extract_training_features.hpp"
-#include "ism/train/learn.hpp"
 
 namespace program {
 
@@ -171,10 +170,9 @@ void run_demo(const DemoCommand& command) {
         progress.tell(stage, done, total);
     };
     const auto features =
-        ism::extract_training_features(set.train.class_names, ism::training_set(set.train),
-                                       {make_extractor(default_detector, default_descriptor)},
-                                       options.features, options.threads, options.progress);
-    const ism::Model model = ism::learn(features, options);
+        extract_training_features(set.train.class_names, ism::training_set(set.train),
+                                  {make_extractor(default_detector, default_descriptor)}, options);
+    const ism::Model model = learn(features, options);
     ism::save_model(folder / "model.safetensors", model);
     const ism::ShapeModel& shapes = model.shapes;
     const double train_seconds = train_watch.seconds();

@@ -6,15 +6,13 @@
 #include "commands.hpp"
 #include "extractors.hpp"
 #include "input.hpp"
+#include "learning.hpp"
 #include "progress.hpp"
 
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/model_file/model_file.hpp"
-#include "ism/train/extract_training_features.hpp"
-#include "ism/train/learn.hpp"
-#include "ism/train/learn_exemplars.hpp"
-#include "ism/train/learn_templates.hpp"
+#include "ism/train/select_words.hpp"
 #include "ism/train/vote_agreement.hpp"
 
 namespace program {
@@ -86,14 +84,10 @@ void run_train(const TrainCommand& command) {
     const auto extractors =
         known ? known->extractors : std::vector{make_extractor(command.detector, command.descriptor)};
     ism::TrainingFeatures features =
-        ism::extract_training_features(dataset.class_names, named_images(dataset), extractors,
-                                       options.features, options.threads, options.progress);
+        extract_training_features(dataset.class_names, named_images(dataset), extractors, options);
     if (known) features = ism::append(std::move(known->features), std::move(features));
-    ism::Model model = ism::learn(features, options);
-    if (templates) {
-        model = ism::learn_templates(std::move(model), features, {}, options.threads, options.progress);
-        model = ism::learn_exemplars(std::move(model), features, 300, options.threads);
-    }
+    ism::Model model = learn(features, options);
+    if (templates) model = learn_templates(std::move(model), features, options);
     ism::save_model(command.model, model, command.growable || known ? &features : nullptr);
     progress.clear();
 

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include "learning.hpp"
+
+#include <utility>
+
+#include "ism/train/extract_training_features.hpp"
+#include "ism/train/learn.hpp"
+#include "ism/train/learn_exemplars.hpp"
+#include "ism/train/learn_templates.hpp"
+
+namespace program {
+
+ism::TrainingFeatures extract_training_features(std::span<const std::string> class_names,
+                                                const ism::TrainingSet& set,
+                                                const std::vector<ism::AnyExtractor>& extractors,
+                                                const ism::TrainOptions& options) {
+    return ism::extract_training_features(class_names, set, extractors, options.features, options.threads,
+                                          options.progress);
+}
+
+ism::Model learn(const ism::TrainingFeatures& features, const ism::TrainOptions& options) {
+    return ism::learn(features, options);
+}
+
+ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& features,
+                           const ism::TrainOptions& options) {
+    model = ism::learn_templates(std::move(model), features, {}, options.threads, options.progress);
+    return ism::learn_exemplars(std::move(model), features, 300, options.threads);
+}
+
+}  // namespace program

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ism/feature/any_extractor.hpp"
+#include "ism/train/train_options.hpp"
+#include "ism/train/training_features.hpp"
+#include "ism/train/training_set.hpp"
+
+namespace program {
+
+// What the library computes under these names (extract_training_features(), learn(), learn_templates()),
+// compiled once for all who ask for it.
+[[nodiscard]] ism::TrainingFeatures extract_training_features(
+    std::span<const std::string> class_names, const ism::TrainingSet& set,
+    const std::vector<ism::AnyExtractor>& extractors, const ism::TrainOptions& options);
+[[nodiscard]] ism::Model learn(const ism::TrainingFeatures& features, const ism::TrainOptions& options);
+[[nodiscard]] ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& features,
+                                         const ism::TrainOptions& options);
+
+}  // namespace program
