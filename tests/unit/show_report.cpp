@@ -9,6 +9,7 @@
 
 #include "support/catch.hpp"
 
+#include "ism/evaluate/confusion_plot.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/show/report.hpp"
 #include "ism/show/report_detections.hpp"
@@ -159,6 +160,20 @@ TEST_CASE("Precision-recall curves begin at recall 0 and leave out classes witho
     CHECK(plot.curves[0].x == std::vector<double>{0, 0.5});
     CHECK(plot.curves[0].y == std::vector<double>{1, 1});
     CHECK(plot.curves[0].name == "cup, AP 50.0 %");
+}
+
+TEST_CASE("A confusion matrix is darkest where all images of a class are") {
+    const ism::Confusion matrix{.class_count = 2, .counts = {0, 7, 0, 1, 2, 1}};
+    const std::vector<std::string> names{nasty, "pot"};
+    const std::string svg = ism::to_svg(matrix, names, nasty);
+    CHECK(markup_fault(svg).empty());
+    const std::string dark = "fill=\"" + ism::hex_color({20, 60, 130}) + "\"";
+    const std::size_t first = svg.find(dark);
+    REQUIRE(first != svg.npos);
+    CHECK(svg.find(dark, first + 1) == svg.npos);
+    CHECK(svg.find(">7</text>", first) < svg.find("<rect", first));  // it tells the seven images
+    CHECK(contains(svg, "fill=\"" + ism::hex_color(ism::mix(ism::white, {20, 60, 130}, 0.25)) + "\""));
+    CHECK_THROWS_AS(ism::to_svg(matrix, std::vector<std::string>{"cup"}, ""), ism::Error);
 }
 
 TEST_CASE("A report is one well-formed page whose text cannot become markup") {
