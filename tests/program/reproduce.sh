@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$here/support.bash"
+
+# The experiments of the paper, on a few images of each set, end in a page that needs no other file.
+reproduce=$(dirname "$ism")/reproduce
+refused_in_a_line "expected a folder of data sets" "$reproduce" nowhere -o out
+data=${ISM_DATA:-$here/../../../shared/data}
+if [[ ! -d $data ]]; then
+    [[ -z ${CI:-} ]] || fail "no data in $data"
+    exit 77
+fi
+"$reproduce" "$data" -o page --quick --threads 2 >figures.txt
+for line in '^separate +2 .* 2748$' '^joint +1 .* 4578$' '^ji3sm3 .* 66 %$' '^votes and templates \(default\) +[0-9.]+ %'; do
+    grep -qE "$line" figures.txt || fail "reproduce: expected a line like $line, got: $(cat figures.txt)"
+done
+for text in "<title>The experiments of the paper</title>" "separate, T_Q = 0" "joint, T_Q = 2" "uiuc-cars" "weizmann-horses" \
+    "Depth in the vote space" "Seconds"; do
+    says "$text" page/report.html
+done
+(($(grep -o '<svg xmlns' page/report.html | wc -l) == 9)) || fail "the page: expected 9 plots"
+! grep -qE '(src|href)="[^d]' page/report.html || fail "the page needs other files"
