@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+
+// Sets of images that scripts/figures measures on, made from those of the data folder:
+//   figure_sets with-background SET.json FOLDER OUT.json     and the photographs of a folder, without objects
+//   figure_sets only-background SET.json FOLDER OUT.json     these alone, with the classes of the set
+//   figure_sets rescaled SET.json FOLDER                     each image at a random size, in FOLDER with
+//   set.json figure_sets without-object SET.json K TRAIN.json TEST.json   object K of each class (car7-…)
+//   apart from the others
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ism/core/random.hpp"
+#include "ism/core/resize_area.hpp"
+#include "ism/dataset/coco.hpp"
+#include "ism/dataset/coco_write.hpp"
+#include "ism/io/images.hpp"
+#include "ism/io/png.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[nodiscard]] ism::Dataset with_background(ism::Dataset set, const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::int64_t id = 0;
+    for (const ism::DatasetImage& image : set.images) id = std::max(id, image.id);
+    for (const fs::path& file : files) {
+        const ism::RgbImage picture = ism::read_rgb(file);
+        set.images.push_back(
+            {.id = ++id, .file = file, .width = picture.width(), .height = picture.height()});
+    }
+    return set;
+}
+
+/// Each image at .8 to 2.8 of its size, evenly in the logarithm; boxes alike.
+[[nodiscard]] ism::Dataset rescaled(ism::Dataset set, const fs::path& folder) {
+    fs::create_directories(folder);
+    ism::Random random(1);
+    for (ism::DatasetImage& image : set.images) {
+        const double factor = 0.8 * std::pow(2.8 / 0.8, random.uniform());
+        const ism::RgbImage before = ism::read_rgb(image.file);
+        std::vector<float> colors;
+        for (const ism::Rgb c : before.pixels())
+            colors.insert(colors.end(), {float(c.r), float(c.g), float(c.b)});
+        ism::RgbImage after(int(std::lround(factor * before.width())),
+                            int(std::lround(factor * before.height())));
+        const auto numbers =
+            ism::resize_area(colors, before.width(), before.height(), 3, after.width(), after.height());
+        const auto byte = [&](std::size_t i) {
+            return std::uint8_t(std::lround(std::clamp(numbers[i], 0.f, 255.f)));
+        };
+        for (std::size_t i = 0; i < after.pixels().size(); ++i)
+            after.pixels()[i] = {byte(3 * i), byte(3 * i + 1), byte(3 * i + 2)};
+        const double fx = double(after.width()) / before.width(),
+                     fy = double(after.height()) / before.height();
+        for (ism::DatasetAnnotation& object : image.objects) {
+            const ism::Box b = object.box;
+            object.box = {fx * b.x, fy * b.y, fx * b.width, fy * b.height};
+            object.segmentation = {};
+        }
+        image.file = folder / (image.file.stem().string() + ".png");
+        image.width = after.width(), image.height = after.height();
+        ism::write_png(image.file, after);
+    }
+    return set;
+}
+
+/// What an image shows: car7 of car7-090-000.png; its length comes first, so that car10 follows car9.
+[[nodiscard]] std::pair<std::size_t, std::string> object_of(const ism::DatasetImage& image) {
+    const std::string name = image.file.stem().string();
+    const std::size_t end = name.find('-');
+    ism::expect(end != name.npos, ism::lazy_text("name of ", name), "an object and a dash", "no dash");
+    return {end, name.substr(0, end)};
+}
+
+/// The images of the K-th object of each class, counted from 1; or all others.
+[[nodiscard]] ism::Dataset of_object(ism::Dataset set, const std::string& k, bool this_one) {
+    std::map<std::uint32_t, std::set<std::pair<std::size_t, std::string>>> objects;
+    for (const ism::DatasetImage& image : set.images)
+        objects[image.objects.at(0).class_index].insert(object_of(image));
+    std::set<std::pair<std::size_t, std::string>> chosen;
+    for (const auto& [class_index, names] : objects) {
+        const std::size_t at = std::stoul(k);
+        ism::expect(at >= 1 && at <= names.size(), "number of an object",
+                    ism::lazy_text("1 ... ", names.size()), at);
+        chosen.insert(*std::next(names.begin(), std::ptrdiff_t(at - 1)));
+    }
+    std::erase_if(set.images, [&](const ism::DatasetImage& image) {
+        return chosen.contains(object_of(image)) != this_one;
+    });
+    return set;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    const std::string what = words.empty() ? "" : words[0];
+    const std::size_t count = what == "without-object" ? 5 : what == "rescaled" ? 3 : 4;
+    ism::expect(words.size() == count, "arguments", "those of the head of figure_sets.cpp", words.size());
+    ism::Dataset set = ism::read_dataset(words[1]);
+    if (what == "without-object") {
+        ism::write_dataset(words[3], of_object(set, words[2], false));
+        ism::write_dataset(words[4], of_object(std::move(set), words[2], true));
+    } else if (what == "rescaled") {
+        const fs::path folder = words[2];
+        ism::write_dataset(folder / "set.json", rescaled(std::move(set), folder));
+    } else {
+        if (what == "only-background") set.images.clear();
+        ism::write_dataset(words[3], with_background(std::move(set), words[2]));
+    }
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "figure_sets: %s\n", error.what());
+    return 2;
+}
