@@ -26,7 +26,7 @@ TEST_CASE("a word histogram is the roots of shares, whole and by quarters") {
                                              feature_at(20, 25)};
     const std::vector<ism::Match> matches{
         {0, 1, 1.0f}, {1, 0, 0.5f}, {1, 1, 0.5f}, {2, 0, 1.0f}, {3, 0, 1.0f}};
-    const auto bins = ism::word_histogram(features, matches, 2, {10, 20, 10, 20});
+    const auto bins = ism::WordMap(features, matches, 2).histogram({10, 20, 10, 20});
     // Weights: whole: word 0 1.5, word 1 1.5; quarter 1: 0.5 and 1.5; quarter 4: 1. Their sum is 6.
     const std::vector<std::pair<std::uint32_t, double>> expected{
         {0, 1.5}, {1, 1.5}, {2, 0.5}, {3, 1.5}, {8, 1.0}};
@@ -38,7 +38,7 @@ TEST_CASE("a word histogram is the roots of shares, whole and by quarters") {
         squares += double(bins[i].value) * bins[i].value;
     }
     CHECK(squares == Approx(1));
-    CHECK(ism::word_histogram(features, matches, 2, {100, 100, 10, 10}).empty());
+    CHECK(ism::WordMap(features, matches, 2).histogram({100, 100, 10, 10}).empty());
 }
 
 TEST_CASE("a judge's probability is the logistic function of its sum") {

@@ -17,7 +17,7 @@ using ism::test::TemporaryFolder;
 
 namespace {
 
-std::string read_error(const std::string& json) {
+std::string results_error(const std::string& json) {
     const TemporaryFolder folder;
     ism::write_file(folder / "r.json", json);
     const std::string head = "file '" + (folder / "r.json").string() + "'";
@@ -79,20 +79,20 @@ TEST_CASE("Results that make no sense are refused with the place") {
     const std::string head =
         R"([{"image_id":1,"category_id":2,"score":1,"bbox":[1,2,3,4]},{"image_id":1,"category_id":2)";
     const std::string good = head + R"(,"score":1,"bbox":[1,2,3,4])";
-    CHECK(read_error("{}") == ": expected an array of results, got an object");
-    CHECK(read_error("[}").starts_with(": expected well-formed JSON, got parse error at line 1, column 2"));
-    CHECK(read_error(head + "}]") == ", result 1: score: expected a number, got nothing");
-    CHECK(read_error(head + R"(,"score":null,"bbox":[1,2,3,4]}])") ==
+    CHECK(results_error("{}") == ": expected an array of results, got an object");
+    CHECK(results_error("[}").starts_with(": expected well-formed JSON, got parse error at line 1, column 2"));
+    CHECK(results_error(head + "}]") == ", result 1: score: expected a number, got nothing");
+    CHECK(results_error(head + R"(,"score":null,"bbox":[1,2,3,4]}])") ==
           ", result 1: score: expected a number, got null");
-    CHECK(read_error(head + R"(,"score":1}])") ==
+    CHECK(results_error(head + R"(,"score":1}])") ==
           ", result 1: bbox: expected a box, or a segmentation to take it from, got neither");
-    CHECK(read_error(good + R"(,"depth_m":-1}])") == ", result 1: depth_m: expected metres above 0, got -1");
-    CHECK(read_error(good + R"(,"scale":0}])") == ", result 1: scale: expected a number above 0, got 0");
-    CHECK(read_error(good + R"(,"probability":1.5}])") ==
+    CHECK(results_error(good + R"(,"depth_m":-1}])") == ", result 1: depth_m: expected metres above 0, got -1");
+    CHECK(results_error(good + R"(,"scale":0}])") == ", result 1: scale: expected a number above 0, got 0");
+    CHECK(results_error(good + R"(,"probability":1.5}])") ==
           ", result 1: probability: expected a number from 0 to 1, got 1.5");
-    CHECK(read_error(good + R"(,"position_m":[1,2]}])") ==
+    CHECK(results_error(good + R"(,"position_m":[1,2]}])") ==
           ", result 1: position_m: expected three numbers x, y, z, got an array of 2");
-    CHECK(read_error(good + "}]") == "nothing thrown");
+    CHECK(results_error(good + "}]") == "nothing thrown");
 
     const TemporaryFolder folder;
     const std::vector<Result> bad = {{.box = {0, 0, 1, 1}, .score = std::nan("")}};

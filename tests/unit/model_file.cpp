@@ -74,6 +74,7 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
             one.weights.push_back(number());
         model.templates.push_back(one);
     }
+    model.word_weight = 1.0 / 3;
     model.template_calibration.curves = {{2, -1}, {1.0 / 7, 0}};
     for (const std::uint32_t object : {0u, 2u}) {
         ism::MaskExemplar one{object, {}};
@@ -109,6 +110,7 @@ void check_equal(const ism::Model& a, const ism::Model& b) {
     CHECK(a.box_classifier.bias == b.box_classifier.bias);
     CHECK(a.calibration.curves == b.calibration.curves);
     CHECK(a.templates == b.templates);
+    CHECK(a.word_weight == b.word_weight);
     CHECK(a.template_calibration.curves == b.template_calibration.curves);
     CHECK(a.exemplars == b.exemplars);
     CHECK(a.training == b.training);
@@ -237,6 +239,7 @@ TEST_CASE("A model that could not be read again is not written") {
     refuses("each once", [](ism::Model& m) { m.shapes.class_names[1] = "car"; });
     refuses("calibration", [](ism::Model& m) { m.calibration.curves.pop_back(); });
     refuses("template_calibration", [](ism::Model& m) { m.template_calibration.curves.pop_back(); });
+    refuses("word_weight", [](ism::Model& m) { m.word_weight = -1; });
     refuses("templates", [](ism::Model& m) { m.templates.pop_back(); });
     refuses("template_weights", [](ism::Model& m) { m.templates[1].weights.pop_back(); });
     refuses("template_grids", [](ism::Model& m) { m.templates[0].grid.rows = 0; });

@@ -94,6 +94,24 @@ TEST_CASE("templates judge and place what votes propose") {
     }
 }
 
+TEST_CASE("words join templates at the weight that tells right from wrong best") {
+    // boxes whose odds of being right are exp(4 margin + w · 4 logit): w is found again
+    const auto learnt = [](double w) {
+        ism::Random random(1);
+        std::vector<ism::detail::JudgedBox> judged;
+        for (int i = 0; i < 20000; ++i) {
+            ism::detail::JudgedBox box{.margin = random.uniform(-2, 1), .logit = random.uniform(-4, 2)};
+            box.right = random.uniform() < 1 / (1 + std::exp(-4 * (box.margin + w * box.logit)));
+            judged.push_back(box);
+        }
+        return ism::detail::fit_word_weight(judged);
+    };
+    CHECK(learnt(0.25) == Approx(0.25).margin(0.02));
+    CHECK(learnt(0) == Approx(0).margin(0.02));
+    CHECK(learnt(-0.5) == 0);
+    CHECK(ism::detail::fit_word_weight({}) == 0);
+}
+
 TEST_CASE("the same templates for any number of threads") {
     const auto features = pattern_features();
     const ism::Model words = ism::learn(features, {.box_classifier = {}, .calibrate = false});

@@ -37,12 +37,11 @@ struct BoxClassifierScore {
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses,
                                                  const Scene& scene) const {
         const BoxClassifier& classifier = scene.model.box_classifier;
-        const std::size_t words = scene.model.words();
+        const WordMap words(scene.features, scene.matches, scene.model.words());
         scene.pool.for_each(hypotheses.size(), [&](std::size_t i, unsigned) {
             Detection& one = hypotheses[i];
             if (!classifier.empty())
-                one.score *= classifier.probability(
-                    one.class_index, word_histogram(scene.features, scene.matches, words, one.box));
+                one.score *= classifier.probability(one.class_index, words.histogram(one.box));
             one.probability = scene.model.calibration.probability(one.class_index, one.score);
         });
         return hypotheses;

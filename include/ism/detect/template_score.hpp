@@ -75,13 +75,18 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     const RgbImage gray_as_color = scene.frame.color.empty() ? colors_of(scene.frame) : RgbImage();
     const RgbImage& color = scene.frame.color.empty() ? gray_as_color : scene.frame.color;
     const HogPyramid pyramid(color, finest_level(proposals), scene.pool);
+    const bool with_words = model.word_weight > 0 && !model.box_classifier.empty();
+    const WordMap words = with_words ? WordMap(scene.features, scene.matches, model.words()) : WordMap();
     std::vector<Detection> found;
     CellScratch scratch;
     for (std::uint32_t c = 0; c < model.templates.size(); ++c) {
         const TemplateScorer scorer(model.templates[c]);
         for (const SearchedBox& box : propose_boxes(scorer, c, pyramid, proposals, max_boxes, scene.pool)) {
             Detection detection;
-            detection.class_index = c, detection.score = std::exp(box.score), detection.box = box.box;
+            double margin = box.score;
+            if (with_words)
+                margin += model.word_weight * model.box_classifier.logit(c, words.histogram(box.box));
+            detection.class_index = c, detection.score = std::exp(margin), detection.box = box.box;
             detection.probability = model.template_calibration.probability(c, detection.score);
             if (explain) detection.cells = scorer.explain(pyramid, box.box, box.mirrored, scratch);
             found.push_back(std::move(detection));

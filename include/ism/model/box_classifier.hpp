@@ -3,10 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
@@ -30,8 +32,9 @@ struct SparseEntry {
 struct BoxClassifier {
     static constexpr std::size_t cells = 5;  ///< the whole box and its four quarters
 
-    Grouped<SparseEntry> weights;  ///< of each class, for the bins of word_histogram(); other bins weigh 0
-    std::vector<float> bias;       ///< of each class
+    Grouped<SparseEntry>
+        weights;              ///< of each class, for the bins of WordMap::histogram(); other bins weigh 0
+    std::vector<float> bias;  ///< of each class
 
     [[nodiscard]] bool empty() const { return bias.empty(); }
     [[nodiscard]] std::size_t classes() const { return bias.size(); }
@@ -42,9 +45,8 @@ struct BoxClassifier {
         bias.push_back(class_bias);
     }
 
-    /// @brief p(class | words in the box), 0 … 1; 1 without a classifier.
-    [[nodiscard]] double probability(std::size_t class_index, std::span<const SparseEntry> histogram) const {
-        if (empty()) return 1;
+    /// @brief The logarithm of the odds that a box with these words shows the class.
+    [[nodiscard]] double logit(std::size_t class_index, std::span<const SparseEntry> histogram) const {
         double sum = bias[class_index];
         std::span<const SparseEntry> own = weights[class_index];
         for (const SparseEntry& bin : histogram) {
@@ -54,46 +56,67 @@ struct BoxClassifier {
             own = own.subspan(std::size_t(at - own.begin()));
             if (!own.empty() && own.front().index == bin.index) sum += double(bin.value) * own.front().value;
         }
-        return 1 / (1 + std::exp(-sum));
+        return sum;
+    }
+    /// @brief p(class | words in the box), 0 … 1; 1 without a classifier.
+    [[nodiscard]] double probability(std::size_t class_index, std::span<const SparseEntry> histogram) const {
+        return empty() ? 1 : 1 / (1 + std::exp(-logit(class_index, histogram)));
     }
 };
 
-/// @brief The words in a box and in each of its quarters, bin cell · words + word: roots of shares, so that
-/// their squares add up to 1 (Arandjelović and Zisserman 2012 do so with SIFT). Empty where no word is in the
-/// box.
-/// @param words  of the model, all channels together
-[[nodiscard]] inline std::vector<SparseEntry> word_histogram(std::span<const Feature> features,
-                                                             std::span<const Match> matches,
-                                                             std::size_t words, const Box& box) {
-    std::vector<detail::Ranked> by_word;
-    std::vector<SparseEntry> quarters;  // of each match in the box the quarter and the weight
-    double total = 0;
-    for (std::size_t i = 0, end = 0; i < matches.size(); i = end) {  // the matches of a feature
-        const Feature& f = features[matches[i].feature];
-        while (end < matches.size() && matches[end].feature == matches[i].feature) ++end;
-        const double u = (double(f.x) - box.x) / box.width, v = (double(f.y) - box.y) / box.height;
-        if (!(u >= 0 && v >= 0 && u < 1 && v < 1)) continue;
-        const std::uint32_t quarter = 1 + std::uint32_t(u >= 0.5) + 2 * std::uint32_t(v >= 0.5);
-        for (const Match& match : matches.subspan(i, end - i)) {
+/// @brief The words of an image, ready to be counted in boxes.
+class WordMap {
+public:
+    WordMap() = default;
+    /// @param words  of the model, all channels together
+    WordMap(std::span<const Feature> features, std::span<const Match> matches, std::size_t words)
+        : words_(words) {
+        std::vector<detail::Ranked> by_word;
+        for (const Match& match : matches)
             by_word.push_back({match.word, static_cast<std::uint32_t>(by_word.size())});
-            quarters.push_back({quarter, match.weight});
-            total += 2 * double(match.weight);
+        detail::sort_ranked(by_word);
+        for (const detail::Ranked& one : by_word) {
+            const Match& match = matches[one.index];
+            const Feature& f = features[match.feature];
+            places_.push_back({f.x, f.y, match.word, match.weight});
         }
     }
-    detail::sort_ranked(by_word);
-    std::vector<SparseEntry> bins;
-    for (std::uint32_t cell = 0; cell < BoxClassifier::cells; ++cell)
-        for (const detail::Ranked& word : by_word) {
-            const auto& [quarter, weight] = quarters[word.index];
-            if (cell != 0 && cell != quarter) continue;
-            const auto bin = static_cast<std::uint32_t>(cell * words + word.key);
-            if (bins.empty() || bins.back().index != bin)
-                bins.push_back({bin, weight});
-            else
-                bins.back().value += weight;
+
+    /// @brief The words in a box and in each of its quarters, bin cell · words + word: roots of shares, so
+    /// that their squares add up to 1 (Arandjelović and Zisserman 2012 do so with SIFT). Empty where no word
+    /// is in the box.
+    [[nodiscard]] std::vector<SparseEntry> histogram(const Box& box) const {
+        std::array<std::vector<SparseEntry>, BoxClassifier::cells> cells;
+        const auto count = [&](std::size_t cell, const Place& place) {
+            const auto bin = static_cast<std::uint32_t>(cell * words_ + place.word);
+            if (cells[cell].empty() || cells[cell].back().index != bin) cells[cell].push_back({bin, 0});
+            cells[cell].back().value += place.weight;
+        };
+        double total = 0;
+        for (const Place& place : places_) {
+            const double u = (double(place.x) - box.x) / box.width,
+                         v = (double(place.y) - box.y) / box.height;
+            if (!(u >= 0 && v >= 0 && u < 1 && v < 1)) continue;
+            count(0, place);
+            count(1 + std::size_t(u >= 0.5) + 2 * std::size_t(v >= 0.5), place);
+            total += 2 * double(place.weight);
         }
-    for (SparseEntry& bin : bins) bin.value = static_cast<float>(std::sqrt(bin.value / total));
-    return bins;
-}
+        std::vector<SparseEntry> bins = std::move(cells[0]);
+        for (std::size_t cell = 1; cell < cells.size(); ++cell)
+            bins.insert(bins.end(), cells[cell].begin(), cells[cell].end());
+        for (SparseEntry& bin : bins) bin.value = static_cast<float>(std::sqrt(bin.value / total));
+        return bins;
+    }
+
+private:
+    struct Place {
+        float x, y;
+        std::uint32_t word;
+        float weight;
+    };
+
+    std::size_t words_ = 0;
+    std::vector<Place> places_;  // by rising word
+};
 
 }  // namespace ism

@@ -39,7 +39,8 @@ struct Model {
     BoxClassifier box_classifier = {};         ///< may be empty
     Calibration calibration = {};              ///< of votes and box classifier; may be empty
     std::vector<BoxTemplate> templates = {};   ///< one a class; may be empty
-    Calibration template_calibration = {};     ///< of the templates' scores; may be empty
+    double word_weight = 0;                    ///< margins of a template that a logit of the words is worth
+    Calibration template_calibration = {};     ///< of templates with words; may be empty
     std::vector<MaskExemplar> exemplars = {};  ///< whose masks are lent; may be empty
     TrainingSummary training = {};
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -93,8 +94,8 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
 [[nodiscard]] inline TensorFile model_to_tensors(const Model& model, const std::string& source) {
     TensorFile file{.source = source};
     // A member that is added to Model does not compile here until it is kept too.
-    const auto& [channels, shapes, box_classifier, calibration, templates, template_calibration, exemplars,
-                 training] = model;
+    const auto& [channels, shapes, box_classifier, calibration, templates, word_weight, template_calibration,
+                 exemplars, training] = model;
     expect<FileError>(model.words() > 0 && shapes.occurrences.size() == model.words(),
                       lazy_text(source, ": words with occurrences"), model.words(),
                       shapes.occurrences.size());
@@ -120,6 +121,7 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
     box_classifier_to_tensors(box_classifier, file);
     calibration_to_tensors(calibration, "calibration", file);
     templates_to_tensors(templates, file);
+    file.tensors["word_weight"] = make_tensor<double>(std::array{word_weight}, {1});
     calibration_to_tensors(template_calibration, "template_calibration", file);
     exemplars_to_tensors(exemplars, file);
     return file;
@@ -152,6 +154,9 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
     model.box_classifier = box_classifier_from_tensors(file, model.words(), classes);
     model.calibration = calibration_from_tensors(file, "calibration", classes);
     model.templates = templates_from_tensors(file, classes);
+    model.word_weight = values<double>(file, "word_weight", {1})[0];
+    expect<FileError>(model.word_weight >= 0 && model.word_weight <= 1000,
+                      lazy_text(file.source, ": word_weight"), "0 ... 1000", model.word_weight);
     model.template_calibration = calibration_from_tensors(file, "template_calibration", classes);
     model.exemplars = exemplars_from_tensors(file, model.shapes.objects.size());
     return model;

@@ -22,6 +22,7 @@
 #include "ism/hog/hog_pyramid.hpp"
 #include "ism/hog/propose_boxes.hpp"
 #include "ism/hog/search_box.hpp"
+#include "ism/model/box_classifier.hpp"
 #include "ism/train/linear_svm.hpp"
 #include "ism/train/training_image.hpp"
 
@@ -54,6 +55,7 @@ struct TemplateImage {
     ImageView<const Rgb> color;
     std::vector<ObjectLabel> labels;
     std::vector<ProposedBox> proposals;
+    WordMap words = {};  ///< for a judge that knows words too
 };
 
 namespace detail {

@@ -55,33 +55,44 @@ namespace detail {
     return scene;
 }
 
-/// The boxes of one image: those labelled, and those of hypotheses found without votes of its own objects.
-[[nodiscard]] inline std::vector<TrainingBox> boxes_of_view(const TrainingView& view, const Scene& scene,
-                                                            const DetectOptions& search) {
-    const auto histogram = [&](const Box& box) {
-        return word_histogram(scene.features, scene.matches, scene.model.words(), box);
-    };
-    std::vector<TrainingBox> boxes;
-    for (const ObjectLabel& label : view.labels)
-        boxes.push_back({.histogram = histogram(label.box),
-                         .true_class = label.class_index,
-                         .predicted_class = label.class_index});
+/// What votes find in a training image without those of its own objects.
+[[nodiscard]] inline std::vector<Detection> find_hypotheses_of_others(const TrainingView& view,
+                                                                      const Scene& scene,
+                                                                      const DetectOptions& search) {
     VoteLimits limits = vote_limits(scene, search);
     limits.without_first = view.first_object, limits.without_end = view.end_object;
     const auto votes = cast_votes<Jism>(scene, search.matching, limits);
-    for (const Detection& guess : find_hypotheses<EpanechnikovKernel, Jism::dimension>(
-             scene, votes, default_bandwidth<Jism>(), search)) {
-        TrainingBox box{.histogram = histogram(guess.box),
-                        .predicted_class = guess.class_index,
-                        .overlap = 0,
-                        .score = guess.score};
-        for (const ObjectLabel& label : view.labels)
-            if (const double shared = iou(guess.box, label.box); shared > box.overlap) {
-                box.overlap = shared;
-                box.true_class = label.class_index;
-            }
-        boxes.push_back(std::move(box));
-    }
+    return find_hypotheses<EpanechnikovKernel, Jism::dimension>(scene, votes, default_bandwidth<Jism>(),
+                                                                search);
+}
+
+[[nodiscard]] inline TrainingBox labelled_box(const ObjectLabel& label, const WordMap& words) {
+    return {.histogram = words.histogram(label.box),
+            .true_class = label.class_index,
+            .predicted_class = label.class_index};
+}
+
+/// A hypothesis, with the object that it overlaps most.
+[[nodiscard]] inline TrainingBox hypothesis_box(std::uint32_t class_index, const Box& box, double score,
+                                                std::span<const ObjectLabel> labels, const WordMap& words) {
+    TrainingBox result{
+        .histogram = words.histogram(box), .predicted_class = class_index, .overlap = 0, .score = score};
+    for (const ObjectLabel& label : labels)
+        if (const double shared = iou(box, label.box); shared > result.overlap) {
+            result.overlap = shared;
+            result.true_class = label.class_index;
+        }
+    return result;
+}
+
+/// The boxes of one image: those labelled, and those of hypotheses found without votes of its own objects.
+[[nodiscard]] inline std::vector<TrainingBox> boxes_of_view(const TrainingView& view, const Scene& scene,
+                                                            const DetectOptions& search) {
+    const WordMap words(scene.features, scene.matches, scene.model.words());
+    std::vector<TrainingBox> boxes;
+    for (const ObjectLabel& label : view.labels) boxes.push_back(labelled_box(label, words));
+    for (const Detection& guess : find_hypotheses_of_others(view, scene, search))
+        boxes.push_back(hypothesis_box(guess.class_index, guess.box, guess.score, view.labels, words));
     return boxes;
 }
 
