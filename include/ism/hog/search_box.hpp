@@ -94,7 +94,9 @@ struct SearchedBox {
     static constexpr Move moves[] = {{1, 0, 0, 0},     {-1, 0, 0, 0},    {0, 1, 0, 0},   {0, -1, 0, 0},
                                      {-.5, -.5, 1, 1}, {.5, .5, -1, -1}, {-.5, 0, 1, 0}, {.5, 0, -1, 0},
                                      {0, -.5, 0, 1},   {0, .5, 0, -1}};
+    double vain = 0;  // a step that gained nothing gains nothing again
     for (const double step : {0.16, 0.16, 0.08, 0.08, 0.04}) {
+        if (step == vain) continue;
         SearchedBox best = at;
         for (const Move& m : moves) {
             const double w = at.box.width * step, h = at.box.height * step;
@@ -103,6 +105,7 @@ struct SearchedBox {
             if (const double score = scorer.of_side(pyramid, box, at.mirrored, scratch); score > best.score)
                 best.box = box, best.score = score;
         }
+        if (!(best.score > at.score)) vain = step;
         at = best;
     }
     return at;
