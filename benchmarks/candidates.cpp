@@ -52,7 +52,7 @@ struct Counts {
 [[nodiscard]] Counts counts_of(const ism::DatasetImage& image, const bench::ProgramModel& model) {
     std::vector<ism::Detection> all;
     const ism::Frame frame = ism::read_frame(image);
-    const auto told = ism::detect(model, frame, bench::recognition_of_program(frame, Listener{&all}), 1);
+    const auto told = ism::detect(model, frame, bench::recognition_of_program(Listener{&all}), 1);
     const std::span strongest =
         std::span(all).first(std::min(all.size(), ism::TemplateScore{}.max_proposals));
     Counts counts{.images = 1, .hypotheses = double(all.size())};

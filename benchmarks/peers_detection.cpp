@@ -96,7 +96,7 @@ struct Sum {
     std::vector<Way> ways = {
         {"templates",
          [&](const ism::Frame& frame, std::size_t i) {
-             return found_by(frame, bench::recognition_of_program(frame), i);
+             return found_by(frame, bench::recognition_of_program(), i);
          },
          train_s},
         {"votes and words",

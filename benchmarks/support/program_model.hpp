@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-
 #include "ism/dataset/read_images.hpp"
 #include "ism/detect/detect.hpp"
+#include "ism/detect/proposals.hpp"
 #include "ism/detect/template_score.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
@@ -34,9 +33,9 @@ using ProgramRecognition =
     ism::Recognition<ism::Jism, ism::EpanechnikovKernel, R, ism::PatchSegmenter, ism::NonMaximumSuppression>;
 
 template <ism::Rescorer R = ism::TemplateScore>
-[[nodiscard]] ProgramRecognition<R> recognition_of_program(const ism::Frame& frame, R rescorer = {}) {
-    return {.options = {.min_relative_score = 0.01,
-                        .max_size_px = std::hypot(frame.gray.width(), frame.gray.height())},
+[[nodiscard]] ProgramRecognition<R> recognition_of_program(R rescorer = {}) {
+    return {.options = ism::proposal_options(),
+            .bandwidth = ism::proposal_bandwidth<ism::Jism>(),
             .rescorer = rescorer,
             .verifier = {.max_inside = 0.5, .across_classes = false}};
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "ism/detect/exemplar_segmenter.hpp"
@@ -69,10 +68,10 @@ ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
     recognition.rescorer.explain = search.explain;
     recognition.verifier.suppression = search.verifier == "nms" || (search.verifier == "auto" && templates);
     if (templates)
-        recognition.options.max_size_px = std::hypot(scene.frame.gray.width(), scene.frame.gray.height());
-    recognition.options.min_probability = search.min_score;
-    recognition.options.min_relative_score =
-        search.keep.value_or(templates ? 0.01 : recognition.options.min_relative_score);
+        recognition.options = ism::proposal_options(),
+        recognition.bandwidth = ism::proposal_bandwidth<Space>();
+    recognition.options.min_probability = search.min_score.value_or(templates ? default_min_score : 0);
+    recognition.options.min_relative_score = search.keep.value_or(recognition.options.min_relative_score);
     return ism::recognise(std::move(scene), recognition);
 }
 

@@ -13,7 +13,7 @@
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/detect/detect.hpp"
-#include "ism/detect/template_score.hpp"
+#include "ism/detect/template_recognition.hpp"
 #include "ism/evaluate/detections.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
@@ -62,13 +62,9 @@ TEST_CASE("weizmann-horses: by votes and words, and with templates that judge an
     CHECK(by_words.mean.eer >= 0.83);
 
     const Model model(ism::learn_templates(words, features));
-    const ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::TemplateScore, ism::PatchSegmenter,
-                           ism::NonMaximumSuppression>
-        recognition{.options = {.min_relative_score = 0.01, .max_size_px = 1e6},
-                    .verifier = {.max_inside = 0.5}};
     std::vector<ism::Detections> found(test.images.size());
     ism::parallel_for(test.images.size(), 0, [&](std::size_t i) {
-        found[i] = ism::detect(model, ism::read_frame(test.images[i]), recognition, 1);
+        found[i] = ism::detect(model, ism::read_frame(test.images[i]), ism::template_recognition(), 1);
     });
     const auto result = ism::evaluate(test, found, ism::IouRule{});
     CHECK(result.mean.ap >= 0.94);

@@ -80,13 +80,15 @@ TEST_CASE("Results that make no sense are refused with the place") {
         R"([{"image_id":1,"category_id":2,"score":1,"bbox":[1,2,3,4]},{"image_id":1,"category_id":2)";
     const std::string good = head + R"(,"score":1,"bbox":[1,2,3,4])";
     CHECK(results_error("{}") == ": expected an array of results, got an object");
-    CHECK(results_error("[}").starts_with(": expected well-formed JSON, got parse error at line 1, column 2"));
+    CHECK(
+        results_error("[}").starts_with(": expected well-formed JSON, got parse error at line 1, column 2"));
     CHECK(results_error(head + "}]") == ", result 1: score: expected a number, got nothing");
     CHECK(results_error(head + R"(,"score":null,"bbox":[1,2,3,4]}])") ==
           ", result 1: score: expected a number, got null");
     CHECK(results_error(head + R"(,"score":1}])") ==
           ", result 1: bbox: expected a box, or a segmentation to take it from, got neither");
-    CHECK(results_error(good + R"(,"depth_m":-1}])") == ", result 1: depth_m: expected metres above 0, got -1");
+    CHECK(results_error(good + R"(,"depth_m":-1}])") ==
+          ", result 1: depth_m: expected metres above 0, got -1");
     CHECK(results_error(good + R"(,"scale":0}])") == ", result 1: scale: expected a number above 0, got 0");
     CHECK(results_error(good + R"(,"probability":1.5}])") ==
           ", result 1: probability: expected a number from 0 to 1, got 1.5");

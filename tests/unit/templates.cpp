@@ -12,7 +12,7 @@
 #include "support/pictures.hpp"
 
 #include "ism/detect/detect.hpp"
-#include "ism/detect/template_score.hpp"
+#include "ism/detect/template_recognition.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
 #include "ism/model_file/model_file.hpp"
@@ -55,7 +55,7 @@ TEST_CASE("templates judge and place what votes propose") {
     CHECK(model.templates[0].grid.columns == 6);  // the objects are squares
     CHECK(model.templates[0].grid.rows == 6);
     CHECK(model.template_calibration.curves.size() == 2);
-    const Recognition recognition{.options = {.min_relative_score = 0.01}, .verifier = {.max_inside = 0.5}};
+    const Recognition recognition = ism::template_recognition();
     for (const std::uint32_t class_index : {0u, 1u}) {
         const auto test = pattern_picture(class_index, 71, 53, 90 + class_index);
         const auto found = ism::detect(model, test.frame, recognition, 1);

@@ -22,7 +22,8 @@ struct DetectOptions {
     std::size_t max_candidates = 200;  ///< at most this many, the strongest, are rescored
     std::size_t max_hypotheses = 40;   ///< the best of these after rescoring are segmented and verified
     double min_size_px = 0;  ///< smaller objects are not looked for; 0 = half the smallest training object
-    double max_size_px = 0;  ///< larger ones neither; 0 = twice the largest training object
+    double max_size_px = 0;  ///< nor larger ones, nor any beyond the image's diagonal; 0 = twice the largest
+                             ///< training object
     MatchMode matching = MatchMode::nearest;  ///< of votes; training and rescorers match softly
     float min_vote_weight = 0.0005f;          ///< lighter votes are dropped
     MeanShiftOptions mean_shift = {};

@@ -115,9 +115,11 @@ template <Kernel K, std::size_t Dimension>
         objects.begin(), objects.end(),
         [](const TrainingObject& a, const TrainingObject& b) { return a.size_px < b.size_px; });
     const double min_size_px = options.min_size_px > 0 ? options.min_size_px : smallest->size_px / 2;
-    const double max_size_px = options.max_size_px > 0 ? options.max_size_px : largest->size_px * 2;
-    return {.width = static_cast<double>(scene.frame.gray.width()),
-            .height = static_cast<double>(scene.frame.gray.height()),
+    const double width = scene.frame.gray.width(), height = scene.frame.gray.height();
+    const double max_size_px = std::min(options.max_size_px > 0 ? options.max_size_px : largest->size_px * 2,
+                                        std::max(min_size_px, std::hypot(width, height)));
+    return {.width = width,
+            .height = height,
             .min_scale = min_size_px / reference_size_px,
             .max_scale = max_size_px / reference_size_px,
             .min_weight = options.min_vote_weight};

@@ -14,6 +14,7 @@
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/hypotheses.hpp"
+#include "ism/detect/proposals.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/hog/propose_boxes.hpp"
 #include "ism/vote/cast.hpp"
@@ -92,7 +93,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
             found.push_back(std::move(detection));
         }
     }
-    const DetectOptions options{.max_size_px = std::hypot(color.width(), color.height())};
+    const DetectOptions options = proposal_options();
     const auto votes = cast_votes<Jism>(scene, options.matching, vote_limits(scene, options));
     scene.pool.for_each(found.size(), [&](std::size_t i, unsigned) {
         Detection& detection = found[i];

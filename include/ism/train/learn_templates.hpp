@@ -13,7 +13,7 @@
 
 #include "ism/core/progress.hpp"
 #include "ism/core/thread_pool.hpp"
-#include "ism/detect/hypotheses.hpp"
+#include "ism/detect/proposals.hpp"
 #include "ism/hog/propose_boxes.hpp"
 #include "ism/train/fit_box_classifier.hpp"
 #include "ism/train/fit_box_templates.hpp"
@@ -41,14 +41,12 @@ namespace detail {
         const Frame blank{.gray = GrayImage(view.width, view.height)};
         ThreadPool pool(1);
         const Scene scene = training_scene(view, model, words, blank, pool);
-        const DetectOptions search{.min_relative_score = 0.01,
-                                   .max_candidates = 60,
-                                   .max_size_px = std::hypot(view.width, view.height)};
         images[i] = {.color = view.pixels,
                      .labels = view.labels,
                      .proposals = {},
                      .words = WordMap(scene.features, scene.matches, model.words())};
-        for (const Detection& guess : find_hypotheses_of_others(view, scene, search))
+        for (const Detection& guess :
+             find_hypotheses_of_others(view, scene, proposal_options(), proposal_bandwidth<Jism>()))
             images[i].proposals.push_back({guess.class_index, guess.box});
         counter.step();
     });
@@ -109,7 +107,7 @@ struct JudgedBox {
         halves[seen[image.labels.empty() ? classes : image.labels.front().class_index]++ % 2].push_back(
             image);
     const BoxClassifierOptions word_options;
-    const std::size_t of_image = std::max<std::size_t>(3, word_options.max_hypotheses / images.size());
+    const std::size_t of_image = std::max<std::size_t>(3, word_options.max_hypotheses / 2 / images.size());
     std::vector<JudgedBox> judged;
     for (int half = 0; half < 2; ++half) {
         const std::vector<TemplateImage>&known = halves[1 - half], &unknown = halves[half];

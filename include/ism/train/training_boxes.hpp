@@ -56,14 +56,13 @@ namespace detail {
 }
 
 /// What votes find in a training image without those of its own objects.
-[[nodiscard]] inline std::vector<Detection> find_hypotheses_of_others(const TrainingView& view,
-                                                                      const Scene& scene,
-                                                                      const DetectOptions& search) {
+[[nodiscard]] inline std::vector<Detection> find_hypotheses_of_others(
+    const TrainingView& view, const Scene& scene, const DetectOptions& search,
+    const Bandwidth<Jism::dimension>& bandwidth) {
     VoteLimits limits = vote_limits(scene, search);
     limits.without_first = view.first_object, limits.without_end = view.end_object;
     const auto votes = cast_votes<Jism>(scene, search.matching, limits);
-    return find_hypotheses<EpanechnikovKernel, Jism::dimension>(scene, votes, default_bandwidth<Jism>(),
-                                                                search);
+    return find_hypotheses<EpanechnikovKernel, Jism::dimension>(scene, votes, bandwidth, search);
 }
 
 [[nodiscard]] inline TrainingBox labelled_box(const ObjectLabel& label, const WordMap& words) {
@@ -91,7 +90,7 @@ namespace detail {
     const WordMap words(scene.features, scene.matches, scene.model.words());
     std::vector<TrainingBox> boxes;
     for (const ObjectLabel& label : view.labels) boxes.push_back(labelled_box(label, words));
-    for (const Detection& guess : find_hypotheses_of_others(view, scene, search))
+    for (const Detection& guess : find_hypotheses_of_others(view, scene, search, default_bandwidth<Jism>()))
         boxes.push_back(hypothesis_box(guess.class_index, guess.box, guess.score, view.labels, words));
     return boxes;
 }
