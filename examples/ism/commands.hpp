@@ -42,13 +42,17 @@ struct TrainCommand {
     bool growable = false;                 ///< keep the training features, for add_to
 };
 
+/// What is less probable is not told where templates judge: a place without objects shall look empty.
+constexpr double default_min_score = 0.3;
+
 /// How objects are searched for, whatever the vote space.
 struct SearchOptions {
     std::string space{default_space}, rescorer{default_rescorer}, verifier{default_verifier},
         segmenter{default_segmenter};
-    std::optional<double> keep = {};  ///< none = the library's
-    double min_score = 0;             ///< least probability of what is told
-    bool explain = false;             ///< also tell what templates saw, to be drawn
+    std::optional<double> keep = {};       ///< none = the library's
+    std::optional<double> min_score = {};  ///< least probability of what is told; none = default_min_score
+                                           ///< where templates judge, else 0
+    bool explain = false;                  ///< also tell what templates saw, to be drawn
 };
 
 struct DetectCommand {

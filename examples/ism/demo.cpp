@@ -195,7 +195,7 @@ void run_demo(const DemoCommand& command) {
         const double look_seconds = look_watch.seconds();
         for (std::size_t s = 0; s < space_names.size(); ++s) {
             SearchOptions search;
-            search.space = space_names[s];
+            search.space = space_names[s], search.min_score = 0;
             const Stopwatch search_watch;
             const ism::Detections found = find_objects(scene, search);
             scenes[i].seconds[s] = look_seconds + search_watch.seconds();

@@ -126,9 +126,9 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
         ->check(CLI::Range(0.0, 1.0))
         ->default_str(ism::join_text(ism::DetectOptions{}.min_relative_score, ", with templates 0.01"));
     app.add_option("--min-score", command.search.min_score,
-                   "tell only what is an object at least so probably; 0: all that was found")
+                   "tell only what is an object at least so probably; 0: all that was found, for evaluation")
         ->check(CLI::Range(0.0, 1.0))
-        ->capture_default_str();
+        ->default_str(ism::join_text(program::default_min_score, " where templates judge, else 0"));
     app.add_option("--rescore", command.search.rescorer,
                    "what judges hypotheses beside their votes: a template of each class, the words in their "
                    "boxes, or nothing; auto: templates where the model has them, else words")

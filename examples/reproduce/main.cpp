@@ -141,7 +141,7 @@ ism::ReportSection precision_recall(const Settings& settings, Times& times, cons
     const ism::TrainOptions options{.threads = settings.threads};
     const ism::Model model = program::learn_templates(program::learn(features, options), features, options);
     times.add(name + ": learning");
-    const std::array ways{votes_alone(), program::SearchOptions{}};
+    const std::array ways{votes_alone(), program::SearchOptions{.min_score = 0}};
     const auto found = search(model, images.test, ways, rule, settings.threads);
     times.add(name + ": searching");
     ism::Plot plot{.title = name, .x_label = "recall", .y_label = "precision"};
