@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ism/core/frame.hpp"
+#include "ism/detect/asked_proposals.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/hypotheses.hpp"
@@ -28,6 +29,7 @@ namespace ism {
 struct TemplateScore {
     std::size_t max_proposals = 60;  ///< hypotheses that are asked, the strongest
     std::size_t max_boxes = 12;      ///< of a class that are placed by searching
+    std::size_t max_classes = 8;     ///< that are asked about a hypothesis, those of most vote weight there
     double min_agreement = 0.5;      ///< IoU of the box that a vote stands for with that of the detection
     bool explain = false;            ///< also tell which cells of a template speak for and against
 
@@ -39,6 +41,7 @@ struct TemplateScore {
 inline void check(const TemplateScore& options) {
     expect(options.max_proposals > 0, "TemplateScore::max_proposals", "1 or more", 0);
     expect(options.max_boxes > 0, "TemplateScore::max_boxes", "1 or more", 0);
+    expect(options.max_classes > 0, "TemplateScore::max_classes", "1 or more", 0);
     expect(options.min_agreement >= 0 && options.min_agreement <= 1, "TemplateScore::min_agreement",
            "0 ... 1", options.min_agreement);
 }
@@ -78,11 +81,14 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     const HogPyramid pyramid(color, finest_level(proposals), scene.pool);
     const bool with_words = model.word_weight > 0 && !model.box_classifier.empty();
     const WordMap words = with_words ? WordMap(scene.features, scene.matches, model.words()) : WordMap();
+    const DetectOptions options = proposal_options();
+    const auto votes = cast_votes<Jism>(scene, options.matching, vote_limits(scene, options));
+    const auto asked = asked_proposals(proposals, votes, max_classes, model.shapes);
     std::vector<Detection> found;
     CellScratch scratch;
     for (std::uint32_t c = 0; c < model.templates.size(); ++c) {
         const TemplateScorer scorer(model.templates[c]);
-        for (const SearchedBox& box : propose_boxes(scorer, c, pyramid, proposals, max_boxes, scene.pool)) {
+        for (const SearchedBox& box : propose_boxes(scorer, c, pyramid, asked[c], max_boxes, scene.pool)) {
             Detection detection;
             double margin = box.score;
             if (with_words)
@@ -93,8 +99,6 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
             found.push_back(std::move(detection));
         }
     }
-    const DetectOptions options = proposal_options();
-    const auto votes = cast_votes<Jism>(scene, options.matching, vote_limits(scene, options));
     scene.pool.for_each(found.size(), [&](std::size_t i, unsigned) {
         Detection& detection = found[i];
         auto support = support_of_box(votes, detection.class_index, detection.box, min_agreement, scene);
