@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "extractors.hpp"
 #include "input.hpp"
+#include "mistakes.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "spaces.hpp"
@@ -67,6 +68,32 @@ void check_depth(const DetectCommand& command, const ism::Dataset& dataset) {
                 "no depth");
 }
 
+/// Images for the report, and what is remarked beside their names.
+struct ReportChoice {
+    std::vector<std::size_t> images = {};
+    std::vector<std::string> remarks = {};
+    bool by_mistakes = false;
+};
+
+/// Of a labelled data set the images with the worst mistakes, worst first; else the first ones.
+ReportChoice choose_for_report(const ism::Dataset& dataset,
+                               const std::vector<std::vector<ism::Result>>& results, std::size_t count) {
+    ReportChoice choice;
+    for (std::size_t i = 0; i < results.size(); ++i) choice.images.push_back(i);
+    choice.by_mistakes = count > 0 && std::any_of(dataset.images.begin(), dataset.images.end(),
+                                                  [](const auto& image) { return !image.objects.empty(); });
+    std::vector<Mistakes> mistakes(results.size());
+    if (choice.by_mistakes) mistakes = find_mistakes(dataset, results);
+    std::stable_sort(choice.images.begin(), choice.images.end(),
+                     [&](std::size_t a, std::size_t b) { return mistakes[a].weight > mistakes[b].weight; });
+    choice.images.resize(std::min(count, choice.images.size()));
+    for (const std::size_t i : choice.images) {
+        const std::string text = mistakes[i].text();
+        choice.remarks.push_back(text.empty() ? "" : ": " + text);
+    }
+    return choice;
+}
+
 }  // namespace
 
 void run_detect(const DetectCommand& command) {
@@ -97,9 +124,11 @@ void run_detect(const DetectCommand& command) {
 
     const std::size_t count = dataset.images.size();
     std::vector<std::vector<ism::Result>> results(count);
-    std::vector<ism::ReportSection> sections(command.report.empty() ? 0 : std::min(count, report_images));
-    const Stopwatch search_watch;
+    std::vector<ism::ReportSection> sections;
+    double search_seconds = 0;
+    bool by_mistakes = false;
     {
+        const Stopwatch search_watch;
         ProgressLine progress;
         // Several images are shared out among the threads; on a single one all threads work together.
         const unsigned inner = count > 1 ? 1 : command.threads;
@@ -113,21 +142,31 @@ void run_detect(const DetectCommand& command) {
             const ism::DatasetImage& image = dataset.images[i];
             const ism::Frame frame = ism::read_frame(image);
             SearchOptions search = command.search;
-            search.explain = overlays || i < sections.size();
+            search.explain = overlays.has_value();
             const ism::Detections found = find_objects(matchers[worker].scene(frame), search);
             results[i] = ism::to_results(found, image, ids);
-            if (overlays || i < sections.size()) {
-                const ism::RgbImage picture = ism::read_rgb(image.file);
-                if (overlays) overlays->write(i, picture, found, shapes.class_names);
-                if (i < sections.size())
-                    sections[i] = ism::detection_section(
-                        command.image.empty() ? short_name(dataset, image) : image.file.filename().string(),
-                        picture, found, shapes.class_names, {.rows = report_rows});
-            }
+            if (overlays) overlays->write(i, ism::read_rgb(image.file), found, shapes.class_names);
             progress.step("detecting", count);
         });
+        search_seconds = search_watch.seconds();
+
+        // The images that the report shows are looked at once more, to be explained.
+        const ReportChoice choice =
+            choose_for_report(dataset, results, command.report.empty() ? 0 : report_images);
+        by_mistakes = choice.by_mistakes;
+        sections.resize(choice.images.size());
+        pool.for_each(sections.size(), [&](std::size_t k, unsigned worker) {
+            const ism::DatasetImage& image = dataset.images[choice.images[k]];
+            const ism::Frame frame = ism::read_frame(image);
+            SearchOptions search = command.search;
+            search.explain = true;
+            const ism::Detections found = find_objects(matchers[worker].scene(frame), search);
+            const std::string name =
+                command.image.empty() ? short_name(dataset, image) : image.file.filename().string();
+            sections[k] = ism::detection_section(name + choice.remarks[k], ism::read_rgb(image.file), found,
+                                                 shapes.class_names, {.rows = report_rows});
+        });
     }
-    const double search_seconds = search_watch.seconds();
 
     std::vector<ism::Result> all;
     for (auto& part : results) std::move(part.begin(), part.end(), std::back_inserter(all));
@@ -139,8 +178,9 @@ void run_detect(const DetectCommand& command) {
                           {"images", std::to_string(count)},
                           {"detections", std::to_string(all.size())}};
         if (sections.size() < count)
-            report.summary.emplace_back("shown here",
-                                        ism::join_text("the first ", sections.size(), " images"));
+            report.summary.emplace_back(
+                "shown here", ism::join_text("the ", by_mistakes ? "" : "first ", sections.size(), " images",
+                                             by_mistakes ? " with the worst mistakes" : ""));
         report.sections = std::move(sections);
         ism::write_file(command.report, ism::to_html(report));
     }

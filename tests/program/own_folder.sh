@@ -5,10 +5,10 @@ source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
 
 # Every command from the folder of the data, with bare file names; the same as from outside.
 make_toys
-"$ism" train --data toys/train.json -o model >/dev/null
+"$ism" train --data toys/train.json -o model --no-templates >/dev/null
 "$ism" detect --model model --data toys/test.json -o found.json --report report.html --overlay overlay >/dev/null
 cd toys
-"$ism" train --data train.json -o m.safetensors >/dev/null
+"$ism" train --data train.json -o m.safetensors --no-templates >/dev/null
 cmp m.safetensors ../model || fail "train: another model in the data's own folder"
 "$ism" info m.safetensors >info.txt
 says "car, mug, duck, robot" info.txt

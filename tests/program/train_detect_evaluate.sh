@@ -5,18 +5,16 @@ source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
 
 # Train, detect, evaluate on a few toys; the same files for any number of threads.
 make_toys
-for threads in 1 2 3; do
+for threads in 1 3; do
     "$ism" train --data toys/train.json -o model-$threads --threads $threads >train.txt
     "$ism" detect --model model-$threads --data toys/test.json -o found-$threads --space ji3sm3 \
         --report report-$threads.html --overlay overlay-$threads --threads $threads >detect.txt
 done
-for threads in 2 3; do
-    cmp model-1 model-$threads || fail "another model with $threads threads"
-    cmp found-1 found-$threads || fail "other detections with $threads threads"
-    diff -r overlay-1 overlay-$threads || fail "other overlays with $threads threads"
-    # (the report names the model, so only its size is compared)
-    (($(wc -c <report-1.html) == $(wc -c <report-$threads.html))) || fail "another report with $threads threads"
-done
+cmp model-1 model-3 || fail "another model with 3 threads"
+cmp found-1 found-3 || fail "other detections with 3 threads"
+diff -r overlay-1 overlay-3 || fail "other overlays with 3 threads"
+# (the report names the model, so only its size is compared)
+(($(wc -c <report-1.html) == $(wc -c <report-3.html))) || fail "another report with 3 threads"
 for line in "images       24" "objects      24" "words        " "occurrences  " "upsampling   " "seconds      "; do
     says "$line" train.txt
 done
@@ -45,6 +43,10 @@ says "car, mug, duck, robot" info.txt
 says "exemplars       24" info.txt
 
 says "templates       yes" info.txt
+
+# What is missed is said beside the image that shows it.
+"$ism" detect --model model-1 --data toys/test.json -o none --min-score 1 --report missed.html >/dev/null
+says "test-0000.png: missed: " missed.html
 
 # Only what is probable; and the paper's way, votes alone, of a model without templates.
 "$ism" detect --model model-1 --data toys/test.json -o probable --min-score 0.5 >/dev/null

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ism/dataset/coco_results.hpp"
+#include "ism/dataset/dataset.hpp"
+
+namespace program {
+
+/// What is wrong with what was told of an image, by IoU .5.
+struct Mistakes {
+    std::vector<std::string> missed = {}, wrong = {};  ///< classes, and of wrong detections how probable
+    double weight = 0;  ///< 1 for each object missed, and the probabilities of what is wrong
+
+    /// "missed: cow; wrong: horse 62 %", or nothing.
+    [[nodiscard]] std::string text() const;
+};
+
+/// The mistakes of each image of a labelled data set.
+[[nodiscard]] std::vector<Mistakes> find_mistakes(const ism::Dataset& dataset,
+                                                  std::span<const std::vector<ism::Result>> of_image);
+
+}  // namespace program
