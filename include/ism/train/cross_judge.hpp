@@ -112,11 +112,12 @@ struct JudgedBox {
     return examples;
 }
 
-/// How many margins one logit of the words is worth: with what weight, in steps of .025 up to .5, their sum
-/// tells right from wrong best, by the likelihood of a logistic curve.
+/// How many margins one logit of the words is worth: with what weight, in steps of .025 up to .2, their sum
+/// tells right from wrong best, by the likelihood of a logistic curve. No more than .2, since the codebook
+/// has seen both halves, which flatters words.
 [[nodiscard]] inline double fit_word_weight(std::span<const JudgedBox> judged) {
     double best = 0, least_loss = std::numeric_limits<double>::infinity();
-    for (int step = 0; step <= 20; ++step) {
+    for (int step = 0; step <= 8; ++step) {
         const double weight = 0.025 * step;
         const std::vector<ScoredExample> examples = scored(judged, weight);
         const Calibration::Curve curve = fit_curve(examples);
