@@ -94,7 +94,7 @@ std::vector<Outcome> search(const ism::Model& model, const ism::Dataset& images,
 
 program::SearchOptions votes_alone(std::string_view space) {
     program::SearchOptions search;
-    search.space = space, search.rescorer = "none", search.verifier = "mdl";
+    search.space = space, search.rescorer = "none", search.verifier = "mdl", search.segmenter = "patches";
     return search;
 }
 

@@ -25,13 +25,14 @@ namespace ism {
 
 /// @brief Lets the template of each class judge and place each hypothesis, whatever class its votes speak
 /// for, where the model has templates: votes propose, templates decide. The score is the exponential of the
-/// template's margin; the support are the votes of the class that agree with the box that was found.
+/// template's margin plus Model::word_weight times the logit of the words in the box; the support are the
+/// votes of the class that agree with the box that was found.
 struct TemplateScore {
-    std::size_t max_proposals = 60;  ///< hypotheses that are asked, the strongest
-    std::size_t max_boxes = 12;      ///< of a class that are placed by searching
-    std::size_t max_classes = 8;     ///< that are asked about a hypothesis, those of most vote weight there
-    double min_agreement = 0.5;      ///< IoU of the box that a vote stands for with that of the detection
-    bool explain = false;            ///< also tell which cells of a template speak for and against
+    std::size_t max_proposals = 60;          ///< hypotheses that are asked, the strongest
+    std::size_t max_boxes = searched_boxes;  ///< of a class that are placed by searching
+    std::size_t max_classes = 8;  ///< that are asked about a hypothesis, those of most vote weight there
+    double min_agreement = 0.5;   ///< IoU of the box that a vote stands for with that of the detection
+    bool explain = false;         ///< also tell which cells of a template speak for and against
 
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene& scene) const;
 };

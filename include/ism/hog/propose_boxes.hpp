@@ -31,6 +31,10 @@ struct ProposedBox {
     Box box;
 };
 
+/// @brief Boxes of a class in an image that are searched, unless asked otherwise: in training as in
+/// detection.
+inline constexpr std::size_t searched_boxes = 12;
+
 /// @brief The best boxes, best first, of which no two overlap by an IoU above 0.7.
 [[nodiscard]] inline std::vector<SearchedBox> best_apart(std::vector<SearchedBox> boxes,
                                                          std::size_t max_count) {

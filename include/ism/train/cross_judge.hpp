@@ -56,7 +56,8 @@ struct JudgedBox {
     const HogPyramid pyramid(image.color, finest_level(image.proposals), pool);
     for (std::uint32_t c = 0; c < scorers.size(); ++c) {
         std::vector<SearchedBox> kept;
-        for (const SearchedBox& box : propose_boxes(scorers[c], c, pyramid, image.proposals, 12, pool)) {
+        for (const SearchedBox& box :
+             propose_boxes(scorers[c], c, pyramid, image.proposals, searched_boxes, pool)) {
             if (std::any_of(kept.begin(), kept.end(),
                             [&](const SearchedBox& k) { return overlaps(k.box, box.box); }))
                 continue;

@@ -222,7 +222,8 @@ private:
     std::vector<float> negative;
     CellRows rows(pyramid, scorer.box_template().grid);
     std::size_t count = 0;
-    for (const SearchedBox& box : propose_boxes(scorer, class_index, pyramid, proposals, 12, pool)) {
+    for (const SearchedBox& box :
+         propose_boxes(scorer, class_index, pyramid, proposals, searched_boxes, pool)) {
         if (count == max_count || box.score <= -1) break;
         if (best_iou(box.box, image.labels, class_index) >= 0.5) continue;
         rows.append(box.box, box.mirrored, negative);
