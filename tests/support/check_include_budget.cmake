@@ -7,12 +7,12 @@ cmake_minimum_required(VERSION 3.22)
 #   header | headers of ours it may reach | libraries it may reach (of those below)
 set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "iostream" "regex")
 set(budget
-    "ism.hpp                    | 128 | "
+    "ism.hpp                    | 129 | "
     "vote/axes.hpp              |  13 | "
-    "detect/detect.hpp          |  86 | "
+    "detect/detect.hpp          |  87 | "
     "train/train_options.hpp    |   6 | "
     "train/training_image.hpp   |  10 | "
-    "train/train.hpp            | 116 | "
+    "train/train.hpp            | 117 | "
     "evaluate/evaluate.hpp      |  10 | "
     "core/frame.hpp             |   8 | "
     "feature/hessian_laplace.hpp|  26 | "

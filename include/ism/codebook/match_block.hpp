@@ -13,6 +13,7 @@
 
 #include "ism/codebook/codebook.hpp"
 #include "ism/codebook/filter.hpp"
+#include "ism/codebook/query_block.hpp"
 #include "ism/codebook/word_index.hpp"
 #include "ism/feature/feature.hpp"
 
@@ -22,14 +23,11 @@ namespace ism::detail {
 class BlockMatcher {
 public:
     explicit BlockMatcher(const WordIndex& index)
-        : index_(&index),
-          rows_(filter_block * index.dimension()),
-          sq_lengths_(filter_block),
-          of_group_(index.group_count()) {}
+        : index_(&index), queries_(index), of_group_(index.group_count()) {}
 
     /// The matches of the descriptors from `first` on, by descriptor, then by word.
     [[nodiscard]] std::vector<Match> match(const Descriptors<float>& descriptors, std::size_t first) {
-        load(descriptors, first);
+        queries_.load(descriptors, first);
         hits_.clear();
         if (index_->uses_bytes())
             search(index_->byte_filter(), byte_block_);
@@ -48,44 +46,19 @@ private:
         double sq_distance = std::numeric_limits<double>::infinity();
     };
 
-    /// Rows that are missing or not finite reach nothing; they hold what another row holds, so that they do
-    /// not widen the range.
-    void load(const Descriptors<float>& descriptors, std::size_t first) {
-        const std::size_t dimension = index_->dimension();
-        first_ = first;
-        count_ = std::min(filter_block, descriptors.size() - first);
-        const float* good = nullptr;
-        for (std::size_t i = 0; i < filter_block; ++i) {
-            float* row = rows_.data() + i * dimension;
-            sq_lengths_[i] = std::numeric_limits<double>::infinity();
-            if (i < count_) {
-                const auto from = descriptors.row(first + i);
-                std::copy(from.begin(), from.end(), row);
-                sq_lengths_[i] = index_->sq_length(row);
-            }
-            if (sq_lengths_[i] < std::numeric_limits<double>::infinity())
-                good = row;
-            else if (good != nullptr)
-                std::copy_n(good, dimension, row);
-            else
-                std::fill_n(row, dimension, 0.0f);
-        }
-    }
-
     /// Finds all words within the threshold.
     template <CandidateFilter Filter>
     void search(const Filter& filter, typename Filter::Block& block) {
-        filter.prepare(rows_, sq_lengths_, index_->max_sq_distance(), block);
+        filter.prepare(queries_.rows(), queries_.sq_lengths(), index_->max_sq_distance(), block);
         std::array<std::uint64_t, filter_block> masks{};
-        const std::span used(masks.data(), (count_ + filter_tile - 1) / filter_tile * filter_tile);
+        const std::span used(masks.data(), queries_.tiled_count());
         for (std::size_t first = 0; first < index_->size(); first += filter_group) {
             filter.masks(block, first / filter_group, used);
             const std::size_t none = filter_group - std::min(filter_group, index_->size() - first);
-            for (std::size_t i = 0; i < count_; ++i)
+            for (std::size_t i = 0; i < queries_.count(); ++i)
                 for (std::uint64_t mask = masks[i] & ~std::uint64_t(0) >> none; mask != 0; mask &= mask - 1) {
                     const auto word = std::uint32_t(first) + std::uint32_t(std::countr_zero(mask));
-                    const float* row = rows_.data() + i * index_->dimension();
-                    const double distance = index_->sq_distance(row, sq_lengths_[i], word);
+                    const double distance = queries_.sq_distance(i, word);
                     if (distance <= index_->max_sq_distance())
                         hits_.push_back({distance, std::uint32_t(i), word});
                 }
@@ -102,7 +75,7 @@ private:
 
         std::vector<Match> matches;
         matches.reserve(hits_.size());
-        for (std::size_t i = 0; i < count_; ++i) {
+        for (std::size_t i = 0; i < queries_.count(); ++i) {
             const auto own = std::span(sorted_).subspan(begin[i], begin[i + 1] - begin[i]);
             for (const Hit& hit : own) {
                 OfGroup& group = of_group_[index_->group(hit.word)];
@@ -112,7 +85,7 @@ private:
             }
             for (const Hit& hit : own) {
                 const OfGroup& group = of_group_[index_->group(hit.word)];
-                matches.push_back({std::uint32_t(first_ + i), hit.word, 1.0f / float(group.count),
+                matches.push_back({std::uint32_t(queries_.first() + i), hit.word, 1.0f / float(group.count),
                                    group.nearest == hit.word});
             }
             for (const Hit& hit : own) of_group_[index_->group(hit.word)] = {};
@@ -121,9 +94,7 @@ private:
     }
 
     const WordIndex* index_;
-    std::size_t first_ = 0, count_ = 0;
-    std::vector<float> rows_;
-    std::vector<double> sq_lengths_;
+    QueryBlock queries_;
     FloatFilter::Block float_block_;
     ByteFilter::Block byte_block_;
     std::vector<Hit> hits_, sorted_;  // by 64 words and descriptor; by descriptor
