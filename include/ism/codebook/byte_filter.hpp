@@ -41,6 +41,8 @@ public:
 
     /// How far the bounds may lie from the squared distances, about; infinite where bytes cannot do.
     [[nodiscard]] double slack() const { return slack_; }
+    /// Mean squared distance of the words to their mean, about.
+    [[nodiscard]] double spread() const { return spread_; }
 
     /// Makes a block of queries ready. @param rows filter_block rows
     void prepare(std::span<const float> rows, std::span<const double> sq_lengths, double max_sq_distance,
@@ -79,7 +81,7 @@ private:
     std::vector<float> sum_;             // of its signed bytes
     std::vector<float> length_, error_;  // |w − c|, |f|
     double largest_sum_ = 0, largest_known_ = 0, largest_length_ = 0, largest_error_ = 0;
-    double slack_ = std::numeric_limits<double>::infinity();
+    double slack_ = std::numeric_limits<double>::infinity(), spread_ = 0;
     FilterBytes* kernel_ = nullptr;
 };
 
@@ -112,6 +114,7 @@ inline ByteFilter::ByteFilter(std::span<const float> words, std::span<const floa
         sum_[w] = float(lost.sum - double(half) * double(dimension));
         length_[w] = float(lost.length + lost.error);
         error_[w] = float(lost.error);
+        spread_ += lost.length * lost.length / double(count);
         largest_known_ = std::max(largest_known_, std::abs(double(known_[w])));
         largest_sum_ = std::max(largest_sum_, std::abs(double(sum_[w])));
         largest_length_ = std::max(largest_length_, double(length_[w]));

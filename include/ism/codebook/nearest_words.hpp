@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
+#include "ism/codebook/nearest_block.hpp"
 #include "ism/codebook/word_index.hpp"
 #include "ism/core/error.hpp"
-#include "ism/core/order.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/feature/feature.hpp"
 
@@ -22,7 +22,9 @@ inline constexpr std::uint32_t no_word = std::numeric_limits<std::uint32_t>::max
 /// @brief A word near a descriptor.
 struct Neighbour {
     std::uint32_t word = no_word;
-    float sq_distance = std::numeric_limits<float>::infinity();  ///< as Codebook has it, taken in double
+    /// That of Codebook, taken in double. Where the word is the descriptor itself it may fall below 0, by
+    /// what its squared length, a float, was rounded.
+    float sq_distance = std::numeric_limits<float>::infinity();
     [[nodiscard]] bool operator==(const Neighbour&) const = default;
 };
 
@@ -38,11 +40,12 @@ struct WordRange {
     return std::min(count, index.size() - (end - std::min<std::size_t>(without.first, end)));
 }
 
-/// @brief The `count` nearest words of each descriptor, whatever the threshold of the codebook: row f of
-/// neighbours_each() entries holds those of descriptor f, nearest first, of equally near ones the first word
-/// first. Exact, as match() is, and the same bits for any number of threads. The neighbours of a descriptor
-/// with NaN or infinite numbers are `no_word`.
-/// @param without  words that are none's neighbours: those of the descriptors' own image, in training
+/// @brief The `count` nearest words of each descriptor, for voting in which every training feature is a word
+/// of its own (local naive Bayes nearest neighbour, McCann and Lowe 2012). Row f of neighbours_each() entries
+/// holds those of descriptor f, nearest first, of equally near ones the first word first. Exact as match()
+/// is, whatever the threshold of the codebook; fastest where that is infinite and `count` small. A descriptor
+/// with NaN or infinite numbers has `no_word` for all its neighbours.
+/// @param without  words that are no neighbours: in training those of the descriptors' own image
 /// @throws Error where the descriptors are of another dimension.
 [[nodiscard]] inline std::vector<Neighbour> nearest_words(const WordIndex& index,
                                                           const Descriptors<float>& descriptors,
@@ -52,19 +55,16 @@ struct WordRange {
     expect(descriptors.dimension() == index.dimension(), "nearest words: dimension of descriptors",
            index.dimension(), descriptors.dimension());
     const std::size_t each = neighbours_each(index, count, without);
+    if (each == 0) return {};
     std::vector<Neighbour> neighbours(descriptors.size() * each);
-    pool.for_each(descriptors.size(), [&](std::size_t f, unsigned) {
-        const float* row = descriptors.row(f).data();
-        const double sq_length = index.sq_length(row);
-        if (!(sq_length < std::numeric_limits<double>::infinity())) return;
-        std::vector<detail::Ranked> order;
-        for (std::uint32_t word = 0; word < index.size(); ++word)
-            if (!(without.first <= word && word < without.end))
-                order.push_back({detail::rising(index.sq_distance(row, sq_length, word)), word});
-        detail::sort_ranked(order);
-        for (std::size_t k = 0; k < each; ++k)
-            neighbours[f * each + k] = {order[k].index,
-                                        float(index.sq_distance(row, sq_length, order[k].index))};
+    const std::size_t blocks = (descriptors.size() + detail::filter_block - 1) / detail::filter_block;
+    std::vector<detail::BlockNearest> searches;
+    while (searches.size() < pool.size()) searches.emplace_back(index, each, without.first, without.end);
+    pool.for_each(blocks, [&](std::size_t block, unsigned worker) {
+        const std::size_t first = block * detail::filter_block;
+        Neighbour* to = neighbours.data() + first * each;
+        for (const detail::NearWord& near : searches[worker].find(descriptors, first))
+            *to++ = {near.word, float(near.sq_distance)};
     });
     return neighbours;
 }

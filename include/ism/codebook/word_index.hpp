@@ -41,9 +41,11 @@ public:
             expect(bad == values.end(), "matching: words", "finite numbers", bad == values.end() ? 0 : *bad);
         }
         number_groups();
-        // Bytes are faster where their rounding is small beside the threshold.
+        // Bytes are faster where their rounding is small beside the threshold, or, where there is none,
+        // beside how far apart words are.
         byte_filter_ = detail::ByteFilter(words_, mean_sq_lengths_, dimension_, isa);
-        uses_bytes_ = byte_filter_.slack() < max_sq_distance_ / 4;
+        const double reach = std::isfinite(max_sq_distance_) ? max_sq_distance_ : byte_filter_.spread();
+        uses_bytes_ = byte_filter_.slack() < reach / 4;
         if (!uses_bytes_) {
             byte_filter_ = {};
             float_filter_ = detail::FloatFilter(words_, mean_sq_lengths_, dimension_, isa);
@@ -71,10 +73,25 @@ public:
                2 * dot_(descriptor, words_.data() + word * dimension_, dimension_);
     }
 
+    /// @brief Has a word at hand that sq_distance() is asked of soon.
+    void prefetch([[maybe_unused]] std::size_t word) const {
+#if defined(__GNUC__)
+        const float* row = words_.data() + word * dimension_;
+        constexpr std::size_t line = 64 / sizeof(float);
+        for (std::size_t k = 0; k < dimension_; k += line) __builtin_prefetch(row + k);
+#endif
+    }
+
     /// @brief Which of the two filters tells candidates; the other is empty.
-    [[nodiscard]] bool uses_bytes() const { return uses_bytes_; }
-    [[nodiscard]] const detail::ByteFilter& byte_filter() const { return byte_filter_; }
-    [[nodiscard]] const detail::FloatFilter& float_filter() const { return float_filter_; }
+    [[nodiscard]] bool uses_bytes() const {
+        return uses_bytes_;
+    }
+    [[nodiscard]] const detail::ByteFilter& byte_filter() const {
+        return byte_filter_;
+    }
+    [[nodiscard]] const detail::FloatFilter& float_filter() const {
+        return float_filter_;
+    }
 
 private:
     /// Groups by number of those that have words.
