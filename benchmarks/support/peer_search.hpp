@@ -100,31 +100,32 @@ constexpr std::size_t euclidean_size = sift_size + 1;
     return rows;
 }
 
+/// Dot products of all of some words with all of some queries, `width` for a query.
+inline void eigen_product(const float* w, std::size_t width, const float* q, std::size_t height,
+                          float* dots) {
+    using Columns = Eigen::Map<const Eigen::MatrixXf>;
+    Eigen::Map<Eigen::MatrixXf>(dots, Eigen::Index(width), Eigen::Index(height)).noalias() =
+        Columns(w, sift_size, Eigen::Index(width)).transpose() * Columns(q, sift_size, Eigen::Index(height));
+}
+
 [[nodiscard]] inline SearchPeer eigen_search(const Words& words) {
-    return {
-        "Eigen gemm", false, [&words](const Rows& queries, std::vector<Hit>& hits) {
-            search_by_products(
-                words, queries, hits,
-                [](const float* w, std::size_t width, const float* q, std::size_t height, float* dots) {
-                    using Columns = Eigen::Map<const Eigen::MatrixXf>;
-                    Eigen::Map<Eigen::MatrixXf>(dots, Eigen::Index(width), Eigen::Index(height)).noalias() =
-                        Columns(w, sift_size, Eigen::Index(width)).transpose() *
-                        Columns(q, sift_size, Eigen::Index(height));
-                });
-        }};
+    return {"Eigen gemm", false, [&words](const Rows& queries, std::vector<Hit>& hits) {
+                search_by_products(words, queries, hits, eigen_product);
+            }};
 }
 
 #ifdef ISM_HAVE_OPENBLAS
+inline void openblas_product(const float* w, std::size_t width, const float* q, std::size_t height,
+                             float* dots) {
+    constexpr int size = int(sift_size);
+    cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasTrans, int(height), int(width), size, 1.0f, q, size, w,
+                size, 0.0f, dots, int(width));
+}
+
 [[nodiscard]] inline SearchPeer openblas_search(const Words& words) {
     return {"OpenBLAS sgemm", false, [&words](const Rows& queries, std::vector<Hit>& hits) {
                 openblas_set_num_threads(1);
-                search_by_products(
-                    words, queries, hits,
-                    [](const float* w, std::size_t width, const float* q, std::size_t height, float* dots) {
-                        constexpr int size = int(sift_size);
-                        cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasTrans, int(height), int(width), size,
-                                    1.0f, q, size, w, size, 0.0f, dots, int(width));
-                    });
+                search_by_products(words, queries, hits, openblas_product);
             }};
 }
 #endif

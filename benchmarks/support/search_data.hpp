@@ -29,17 +29,19 @@ using Rows = ism::Descriptors<float>;
     return 2 * (1 - ism::CodebookOptions{}.min_similarity) * sq_length;
 }
 
-/// @brief SIFT descriptors of the images of some folders, at most `count`: an even part.
-[[nodiscard]] inline Rows descriptors_of(std::span<const std::filesystem::path> folders, std::size_t count) {
+/// @brief Descriptors of the colour images of some folders, at most `count`: an even part.
+template <ism::Descriptor Desc = ism::Sift>
+[[nodiscard]] Rows descriptors_of(std::span<const std::filesystem::path> folders, std::size_t count) {
     Rows all(sift_size);
     for (const std::filesystem::path& folder : folders) {
         std::vector<std::filesystem::path> files;
         for (const auto& entry : std::filesystem::directory_iterator(folder))
             for (const char* ending : {".png", ".jpg"})
                 if (entry.path().extension() == ending) files.push_back(entry.path());
+        std::erase_if(files, [](const auto& file) { return file.stem().string().ends_with("-depth"); });
         std::sort(files.begin(), files.end());
-        ism::FeatureExtractor<ism::DifferenceOfGaussians, ism::Sift> extractor(
-            like_peers<ism::DifferenceOfGaussians>(), 0);
+        ism::FeatureExtractor<ism::DifferenceOfGaussians, Desc> extractor(
+            like_peers<ism::DifferenceOfGaussians, Desc>(), 0);
         for (const std::filesystem::path& file : files) {
             if (all.size() > 2 * count) break;
             const auto& found = extractor.extract(read_bytes(file));
