@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.22)
 # The rules the headers keep: the folders are stations in this order, and a header includes only its own and earlier
 # ones; nanoflann is hidden in one header; Eigen costs every program 2 s and 280 MB to compile,
 # <immintrin.h> 0.2 s and 90 MB (core/vector.hpp does without); nothing prints.
-set(stations core hog feature cluster codebook model vote detect train io model_file dataset show evaluate)
+set(stations core depth hog feature cluster codebook model vote detect train io model_file dataset show evaluate)
 set(everywhere config.hpp version.hpp)
 set(errors "")
 set(nanoflann "")
