@@ -16,8 +16,10 @@
 
 namespace program {
 
-/// The vote spaces by name, in the order of the paper's equations; indices are what find_objects() takes.
+/// The vote spaces of the paper by name, in the order of its equations.
 inline constexpr std::array<std::string_view, 5> space_names = {"ism", "jism", "ji3sm1", "ji3sm2", "ji3sm3"};
+/// The space of a model's part for depth, and the choice between it and jism, image by image.
+inline constexpr std::string_view metric_space = "metric", auto_space = "auto";
 inline constexpr std::array<std::string_view, 4> detector_names = {"dog", "harris-laplace", "hessian-laplace",
                                                                    "dense"};
 inline constexpr std::array<std::string_view, 2> descriptor_names = {"sift", "root-sift"};
@@ -25,7 +27,7 @@ inline constexpr std::array<std::string_view, 2> descriptor_names = {"sift", "ro
 // What is taken where nothing is said; all else comes from the library.
 inline constexpr std::string_view default_detector = "hessian-laplace";
 inline constexpr std::string_view default_descriptor = "root-sift";
-inline constexpr std::string_view default_space = "jism";
+inline constexpr std::string_view default_space = auto_space;
 inline constexpr std::string_view default_rescorer = "auto";
 inline constexpr std::string_view default_verifier = "auto";
 inline constexpr std::string_view default_segmenter = "auto";
@@ -39,6 +41,7 @@ struct TrainCommand {
     std::filesystem::path add_to = {};     ///< model that learns more; empty = a new one
     std::string best_words = "agreement";  ///< what TrainOptions::selection goes by
     bool templates = true;                 ///< also learn a template of each class
+    bool depth = true;                     ///< also learn from depth, where images have it
     bool growable = false;                 ///< keep the training features, for add_to
 };
 

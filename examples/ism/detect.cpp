@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <deque>
 
@@ -68,6 +69,20 @@ void check_depth(const DetectCommand& command, const ism::Dataset& dataset) {
                 "no depth");
 }
 
+/// The space in which a frame is searched.
+std::string_view space_of(const ism::Frame& frame, std::string_view space, bool has_rgbd) {
+    if (space != auto_space) return space;
+    return has_rgbd && !frame.depth_m.empty() && frame.camera ? metric_space : "jism";
+}
+
+/// What --space auto came to.
+std::string spaces_text(std::size_t in_metres, std::size_t images, bool has_rgbd) {
+    if (in_metres == images) return "metric";
+    if (in_metres > 0)
+        return ism::join_text("metric; jism for ", images - in_metres, " images without depth and camera");
+    return has_rgbd ? "jism, for want of depth and camera: no positions, and less is found" : "jism";
+}
+
 /// Images for the report, and what is remarked beside their names.
 struct ReportChoice {
     std::vector<std::size_t> images = {};
@@ -109,6 +124,8 @@ void run_detect(const DetectCommand& command) {
         command.image.empty() ? ism::read_dataset(command.data) : single_image(command, shapes);
     const std::vector<std::int64_t> ids = category_ids(dataset, shapes);
     check_depth(command, dataset);
+    ism::expect(command.search.space != metric_space || !model.rgbd.empty(), "--space metric",
+                "a model learnt from images with depth and camera", "one without");
     const std::size_t skipped =
         check_images(dataset, command.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
             if (needs_depth(command.search.space) && image.depth_file.empty())
@@ -126,6 +143,7 @@ void run_detect(const DetectCommand& command) {
     std::vector<std::vector<ism::Result>> results(count);
     std::vector<ism::ReportSection> sections;
     double search_seconds = 0;
+    std::atomic<std::size_t> in_metres = 0;
     bool by_mistakes = false;
     {
         const Stopwatch search_watch;
@@ -134,16 +152,27 @@ void run_detect(const DetectCommand& command) {
         const unsigned inner = count > 1 ? 1 : command.threads;
         ism::ThreadPool pool(count > 1 ? command.threads : 1);
         const std::vector<ism::AnyExtractor> extractors = extractors_of(model);
+        std::vector<ism::AnyExtractor> rgbd_extractors;
+        for (const ism::Model& rgbd : model.rgbd) rgbd_extractors = extractors_of(rgbd);
         std::deque<ism::ThreadPool> inner_pools;  // one a worker
-        std::deque<ism::FrameMatcher> matchers;
-        for (unsigned worker = 0; worker < pool.size(); ++worker)
-            matchers.emplace_back(model, extractors, inner_pools.emplace_back(inner));
+        std::deque<ism::FrameMatcher> matchers, rgbd_matchers;
+        for (unsigned worker = 0; worker < pool.size(); ++worker) {
+            ism::ThreadPool& own = inner_pools.emplace_back(inner);
+            matchers.emplace_back(model, extractors, own);
+            for (const ism::Model& rgbd : model.rgbd) rgbd_matchers.emplace_back(rgbd, rgbd_extractors, own);
+        }
+        const auto find = [&](const ism::Frame& frame, unsigned worker, bool explain) {
+            SearchOptions search = command.search;
+            search.explain = explain;
+            search.space = space_of(frame, search.space, !model.rgbd.empty());
+            const bool metric = search.space == metric_space;
+            return find_objects((metric ? rgbd_matchers : matchers)[worker].scene(frame), search);
+        };
         pool.for_each(count, [&](std::size_t i, unsigned worker) {
             const ism::DatasetImage& image = dataset.images[i];
             const ism::Frame frame = ism::read_frame(image);
-            SearchOptions search = command.search;
-            search.explain = overlays.has_value();
-            const ism::Detections found = find_objects(matchers[worker].scene(frame), search);
+            if (space_of(frame, command.search.space, !model.rgbd.empty()) == metric_space) ++in_metres;
+            const ism::Detections found = find(frame, worker, overlays.has_value());
             results[i] = ism::to_results(found, image, ids);
             if (overlays) overlays->write(i, ism::read_rgb(image.file), found, shapes.class_names);
             progress.step("detecting", count);
@@ -158,9 +187,7 @@ void run_detect(const DetectCommand& command) {
         pool.for_each(sections.size(), [&](std::size_t k, unsigned worker) {
             const ism::DatasetImage& image = dataset.images[choice.images[k]];
             const ism::Frame frame = ism::read_frame(image);
-            SearchOptions search = command.search;
-            search.explain = true;
-            const ism::Detections found = find_objects(matchers[worker].scene(frame), search);
+            const ism::Detections found = find(frame, worker, true);
             const std::string name =
                 command.image.empty() ? short_name(dataset, image) : image.file.filename().string();
             sections[k] = ism::detection_section(name + choice.remarks[k], ism::read_rgb(image.file), found,
@@ -174,7 +201,9 @@ void run_detect(const DetectCommand& command) {
         ism::Report report{.title = "Detections"};
         report.summary = {{"model", command.model.filename().string()},
                           {"classes", list_text(shapes.class_names)},
-                          {"vote space", command.search.space},
+                          {"vote space", command.search.space == auto_space
+                                             ? spaces_text(in_metres, count, !model.rgbd.empty())
+                                             : command.search.space},
                           {"images", std::to_string(count)},
                           {"detections", std::to_string(all.size())}};
         if (sections.size() < count)
@@ -187,6 +216,8 @@ void run_detect(const DetectCommand& command) {
     ism::write_results(command.results, all);
     std::printf("images      %zu\n", count);
     if (skipped > 0) std::printf("skipped     %zu\n", skipped);
+    if (command.search.space == auto_space)
+        std::printf("space       %s\n", spaces_text(in_metres, count, !model.rgbd.empty()).c_str());
     std::printf("detections  %zu\n", all.size());
     std::printf("seconds     %.1f\n", watch.seconds());
     std::printf("ms/image    %.0f (%u threads)\n", 1000 * search_seconds / double(count),

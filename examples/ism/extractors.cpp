@@ -39,10 +39,13 @@ ism::AnyExtractor make_extractor(std::string_view detector, std::string_view des
     return make(detector, descriptor, nullptr);
 }
 
+ism::AnyExtractor make_extractor(const ism::FeatureSettings& settings) {
+    return make(settings.detector, settings.descriptor, &settings);
+}
+
 std::vector<ism::AnyExtractor> extractors_of(const ism::Model& model) {
     std::vector<ism::AnyExtractor> extractors;
-    for (const ism::Channel& channel : model.channels)
-        extractors.push_back(make(channel.features.detector, channel.features.descriptor, &channel.features));
+    for (const ism::Channel& channel : model.channels) extractors.push_back(make_extractor(channel.features));
     return extractors;
 }
 

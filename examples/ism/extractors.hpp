@@ -15,6 +15,10 @@ namespace program {
 /// @throws ism::Error where there is none of these names.
 [[nodiscard]] ism::AnyExtractor make_extractor(std::string_view detector, std::string_view descriptor);
 
+/// The extractor that settings tell of.
+/// @throws ism::Error where the program has none of the names.
+[[nodiscard]] ism::AnyExtractor make_extractor(const ism::FeatureSettings& settings);
+
 /// The extractors that a model's features were found by, one a channel.
 /// @throws ism::Error where the program has none of the names.
 [[nodiscard]] std::vector<ism::AnyExtractor> extractors_of(const ism::Model& model);

@@ -24,6 +24,9 @@ void run_info(const std::filesystem::path& path) {
     std::printf("box classifier  %s\n", model.box_classifier.empty() ? "no" : "yes");
     std::printf("templates       %s\n", model.templates.empty() ? "no" : "yes");
     std::printf("exemplars       %zu\n", model.exemplars.size());
+    for (const ism::Model& rgbd : model.rgbd)
+        std::printf("depth           %zu words with local frames, %zu regions\n", rgbd.words(),
+                    rgbd.mask_judge.examples.size());
     std::printf("probabilities   %s\n", model.calibration.empty() ? "no" : "yes");
     std::printf("reference size  %g px\n", ism::reference_size_px);
     for (const ism::Channel& channel : model.channels) {

@@ -4,10 +4,15 @@
 
 #include <utility>
 
+#include "extractors.hpp"
+
 #include "ism/train/extract_training_features.hpp"
 #include "ism/train/learn.hpp"
 #include "ism/train/learn_exemplars.hpp"
+#include "ism/train/learn_mask_judge.hpp"
+#include "ism/train/learn_metric.hpp"
 #include "ism/train/learn_templates.hpp"
+#include "ism/train/metric_extractor.hpp"
 
 namespace program {
 
@@ -27,6 +32,20 @@ ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& featur
                            const ism::TrainOptions& options) {
     model = ism::learn_templates(std::move(model), features, {}, options.threads, options.progress);
     return ism::learn_exemplars(std::move(model), features, 300, options.threads);
+}
+
+ism::Model learn_rgbd(std::span<const std::string> class_names, const ism::TrainingSet& set,
+                      const ism::TrainOptions& options) {
+    const ism::TrainingFeatures features = ism::extract_training_features(
+        class_names, set, {make_extractor(ism::settings_of(ism::metric_extractor()))},
+        {.max_features = options.features.max_features,
+         .choose_upsampling = false,
+         .mirror = false,
+         .pixels = true,
+         .depth = true},
+        options.threads, options.progress);
+    return ism::learn_mask_judge(ism::learn_metric(features, {}, options.threads), features, {},
+                                 options.threads, options.progress);
 }
 
 }  // namespace program

@@ -82,6 +82,9 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
     app.add_flag_callback(
         "--no-templates", [&command] { command.templates = false; },
         "learn no template of each class, only votes and words");
+    app.add_flag_callback(
+        "--no-depth", [&command] { command.depth = false; },
+        "learn from colours alone, also where images have depth");
     app.add_option("--seed", command.options.codebook.seed, "of random choices")->capture_default_str();
     CLI::Option* add_to =
         app.add_option("--add-to", command.add_to,
@@ -119,8 +122,14 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
         ->expected(4)
         ->needs(image);
     app.add_option("-o,--output", command.results, "results to write, COCO JSON")->required();
-    app.add_option("--space", command.search.space, "vote space")
-        ->check(CLI::IsMember(texts(program::space_names)))
+    std::vector<std::string> spaces = texts(program::space_names);
+    spaces.insert(spaces.begin(), std::string(program::auto_space));
+    spaces.emplace_back(program::metric_space);
+    app.add_option(
+           "--space", command.search.space,
+           "vote space; auto: metric where the model was learnt with depth and the image has depth and a "
+           "camera, else jism")
+        ->check(CLI::IsMember(spaces))
         ->capture_default_str();
     app.add_option("--keep", command.search.keep, "drop what scores less than this part of the image's best")
         ->check(CLI::Range(0.0, 1.0))
@@ -128,7 +137,8 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
     app.add_option("--min-score", command.search.min_score,
                    "tell only what is an object at least so probably; 0: all that was found, for evaluation")
         ->check(CLI::Range(0.0, 1.0))
-        ->default_str(ism::join_text(program::default_min_score, " where templates judge, else 0"));
+        ->default_str(ism::join_text(program::default_min_score,
+                                     " where templates judge or in the space metric, else 0"));
     app.add_option("--rescore", command.search.rescorer,
                    "what judges hypotheses beside their votes: a template of each class, the words in their "
                    "boxes, or nothing; auto: templates where the model has them, else words")

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ism/detect/exemplar_segmenter.hpp"
+#include "ism/detect/metric_recognition.hpp"
 #include "ism/detect/recognition.hpp"
 #include "ism/detect/template_score.hpp"
 
@@ -82,20 +83,39 @@ constexpr std::array depth_needed = {ism::Ism::needs_depth, ism::Jism::needs_dep
                                      ism::Ji3sm2::needs_depth, ism::Ji3sm3::needs_depth};
 static_assert(finders.size() == space_names.size() && depth_needed.size() == space_names.size());
 
+/// Regions judged by votes in metres, colour and shape.
+ism::Detections find_in_metres(ism::Scene scene, const SearchOptions& search) {
+    ism::expect(!scene.model.mask_judge.empty(), "--space metric",
+                "a model learnt from images with depth and camera", "one without");
+    if (search.rescorer == "none") {  // votes alone
+        ism::Recognition<ism::Metric, ism::EpanechnikovKernel, ism::NoRescorer, ism::PatchSegmenter,
+                         ism::NonMaximumSuppression>
+            votes{.options = ism::metric_proposal_options()};
+        return ism::recognise(std::move(scene), votes);
+    }
+    auto recognition = ism::metric_recognition();
+    recognition.options.min_probability = search.min_score.value_or(default_min_score);
+    recognition.options.min_relative_score = search.keep.value_or(recognition.options.min_relative_score);
+    recognition.verifier.second_choices = recognition.options.min_probability == 0;
+    return ism::recognise(std::move(scene), recognition);
+}
+
 std::size_t space_index(std::string_view name) {
     const auto found = std::find(space_names.begin(), space_names.end(), name);
-    ism::expect(found != space_names.end(), "vote space", "one of ism, jism, ji3sm1, ji3sm2, ji3sm3", name);
+    ism::expect(found != space_names.end(), "vote space", "one of ism, jism, ji3sm1, ji3sm2, ji3sm3, metric",
+                name);
     return static_cast<std::size_t>(found - space_names.begin());
 }
 
 }  // namespace
 
 ism::Detections find_objects(ism::Scene scene, const SearchOptions& search) {
+    if (search.space == metric_space) return find_in_metres(std::move(scene), search);
     return finders[space_index(search.space)](std::move(scene), search);
 }
 
 bool needs_depth(std::string_view space) {
-    return depth_needed[space_index(space)];
+    return space == metric_space || (space != auto_space && depth_needed[space_index(space)]);
 }
 
 }  // namespace program

@@ -88,6 +88,13 @@ void run_train(const TrainCommand& command) {
     if (known) features = ism::append(std::move(known->features), std::move(features));
     ism::Model model = learn(features, options);
     if (templates) model = learn_templates(std::move(model), features, options);
+    const auto with_depth = [](const ism::DatasetImage& image) {
+        return !image.depth_file.empty() && image.camera;
+    };
+    const auto depth_images =
+        std::size_t(std::count_if(dataset.images.begin(), dataset.images.end(), with_depth));
+    const bool depth = command.depth && !known && depth_images > 0;
+    if (depth) model.rgbd = {learn_rgbd(dataset.class_names, named_images(dataset), options)};
     ism::save_model(command.model, model, command.growable || known ? &features : nullptr);
     progress.clear();
 
@@ -106,6 +113,11 @@ void run_train(const TrainCommand& command) {
     std::printf("\nwords        %zu\n", model.words());
     std::printf("occurrences  %zu\n", model.shapes.occurrences.values().size());
     std::printf("upsampling   %.3g\n", settings.options.upsampling);
+    if (depth)
+        std::printf("depth        of %zu images: %zu words with local frames, %zu regions to compare with\n",
+                    depth_images, model.rgbd[0].words(), model.rgbd[0].mask_judge.examples.size());
+    else if (command.depth && known && depth_images > 0)
+        std::printf("depth        left out: what --add-to keeps has none; train anew for the space metric\n");
     std::printf("seconds      %.1f\n", watch.seconds());
 }
 

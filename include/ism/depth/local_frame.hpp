@@ -5,19 +5,12 @@
 #include <cmath>
 #include <optional>
 
+#include "ism/core/local_frame.hpp"
 #include "ism/core/rotation.hpp"
 #include "ism/core/vec3.hpp"
 #include "ism/depth/surface.hpp"
 
 namespace ism {
-
-/// @brief Where a feature is and how the surface there is turned: a point x of the frame is at
-/// point_m + rotate(rotation, x) in the camera frame. Its axes are the feature's direction along the surface,
-/// the surface's normal as the third, and what is at right angles to both.
-struct LocalFrame {
-    Vec3f point_m;
-    Rotation rotation;
-};
 
 /// @brief The frame at the place (x, y) of an image, pixels, for the direction `angle` (radians, from x
 /// towards y). Depth and normal are those of the nearest pixel within 2 px that has both. None where there is

@@ -11,6 +11,7 @@
 #include "ism/core/camera.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/rotation.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/hog/box_template.hpp"
 
@@ -22,6 +23,13 @@ struct Support {
     std::uint32_t word = 0;        ///< index of the matched word in the codebook
     std::uint32_t occurrence = 0;  ///< index of the occurrence in the model
     float weight = 0;              ///< what it adds to the score
+};
+
+/// @brief Why a mask is taken for an object of a class (MaskJudge): what votes, colour and shape add to the
+/// logarithm of the odds, and the training objects it looks like.
+struct MaskReasons {
+    double votes = 0, color = 0, shape = 0, look = 0;  ///< look: colour and shape together
+    std::uint32_t color_object = 0, shape_object = 0;  ///< indices into ShapeModel::objects
 };
 
 /// @brief Which pixels belong to an object. All images are of one size and cover the part of the image
@@ -55,9 +63,17 @@ struct Detection {
     double angle = 0;                  ///< turned by so much, radians from x towards y; 0 where upright
     double depth_m = no_depth;         ///< along the optical axis, metres; NaN = not known
     std::optional<Point3> position_m;  ///< in the camera frame; where camera and depth are known
-    Segmentation segmentation;         ///< figure and ground maps and mask
-    std::vector<Support> support;      ///< why it was found, strongest first
-    CellShares cells;                  ///< what its template saw; empty unless TemplateScore::explain
+    double position_error_m =
+        std::numeric_limits<double>::quiet_NaN();  ///< standard error of position_m, by
+                                                   ///< how its votes scatter; NaN = not known
+    double size_m =
+        std::numeric_limits<double>::quiet_NaN();  ///< root of the box's area at this depth; NaN = not known
+    std::optional<Rotation> rotation =
+        {};                     ///< against the training image of the heaviest vote; only of votes with poses
+    Segmentation segmentation;  ///< figure and ground maps and mask
+    std::vector<Support> support;             ///< why it was found, strongest first
+    CellShares cells;                         ///< what its template saw; empty unless TemplateScore::explain
+    std::optional<MaskReasons> reasons = {};  ///< why its mask is of this class; of MaskJudgeScore
 };
 
 /// @brief How much each station of the way had to do, and how long it took.

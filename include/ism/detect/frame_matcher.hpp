@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ism/codebook/match.hpp"
+#include "ism/codebook/match_nearest.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/stopwatch.hpp"
 #include "ism/core/thread_pool.hpp"
@@ -39,7 +40,7 @@ public:
                    "detection: features of the model", lazy_text(wanted.detector, ", ", wanted.descriptor),
                    lazy_text(given.detector, ", ", given.descriptor));
             channels_.push_back({extractors[c].start(pool), WordIndex(model.channels[c].codebook),
-                                 static_cast<std::uint32_t>(words)});
+                                 static_cast<std::uint32_t>(words), model.channels[c].neighbours});
             words += model.channels[c].codebook.size();
         }
     }
@@ -56,7 +57,10 @@ public:
             scene.extract_ms += watch.lap_ms();
             const auto first = static_cast<std::uint32_t>(scene.features.size());
             scene.features.insert(scene.features.end(), found.features.begin(), found.features.end());
-            for (Match match : match(channel.words, found.descriptors, pool_)) {
+            const bool nearest = channel.neighbours > 0;
+            for (Match match :
+                 nearest ? match_nearest(channel.words, found.descriptors, channel.neighbours, pool_)
+                         : match(channel.words, found.descriptors, pool_)) {
                 match.feature += first, match.word += channel.first_word;
                 scene.matches.push_back(match);
             }
@@ -71,6 +75,7 @@ private:
         ExtractFeatures extract;
         WordIndex words;
         std::uint32_t first_word;
+        std::size_t neighbours;
     };
 
     const Model& model_;

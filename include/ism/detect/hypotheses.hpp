@@ -32,6 +32,9 @@ namespace ism {
     return no_depth;
 }
 
+/// @brief How votes of a window become a hypothesis.
+using DescribeHypothesis = Detection(double score, std::vector<Support> window, const Scene& scene);
+
 /// @brief Tells from the votes of a window what the object would be: the class of the most weight, and by its
 /// votes centre, scale, angle, box, depth and position. They stay as the detection's support.
 /// @param window  Support::weight is the vote's weight times the kernel's
@@ -79,14 +82,20 @@ namespace ism {
     return result;
 }
 
+/// @brief The same of votes in a space with poses: in ism/detect/posed_hypothesis.hpp.
+[[nodiscard]] inline Detection describe_posed_hypothesis(double score, std::vector<Support> window,
+                                                         const Scene& scene);
+
 /// @brief The places where votes agree, strongest first over all labels, at most
 /// DetectOptions::max_candidates, each told as a detection without segmentation.
-/// @param votes  as cast_votes() gives them: by rising label
+/// @param votes     as cast_votes() gives them: by rising label
+/// @param describe  describe_hypothesis() or describe_posed_hypothesis()
 template <Kernel K, std::size_t Dimension>
 [[nodiscard]] std::vector<Detection> find_hypotheses(const Scene& scene,
                                                      std::span<const Vote<Dimension>> votes,
                                                      const Bandwidth<Dimension>& bandwidth,
-                                                     const DetectOptions& options) {
+                                                     const DetectOptions& options,
+                                                     DescribeHypothesis* describe = describe_hypothesis) {
     const auto labels = split_by_label(votes);
     const auto modes = strongest_modes<K>(std::span<const std::span<const Vote<Dimension>>>(labels),
                                           bandwidth, options.mean_shift, options.max_candidates,
@@ -102,7 +111,7 @@ template <Kernel K, std::size_t Dimension>
             window.push_back(
                 {vote.feature, vote.word, vote.occurrence, static_cast<float>(vote.weight * kernel)});
         }
-        hypotheses[i] = describe_hypothesis(modes[i].score, std::move(window), scene);
+        hypotheses[i] = describe(modes[i].score, std::move(window), scene);
     });
     std::erase_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
     return hypotheses;
@@ -132,8 +141,10 @@ template <VoteSpaceType Space>
                                                              const VoteLimits& limits) {
     const Camera* const camera = scene.frame.camera ? &*scene.frame.camera : nullptr;
     if (matching == MatchMode::all)
-        return cast_votes<Space>(scene.features, scene.matches, scene.model.shapes, camera, limits);
-    return cast_votes<Space>(scene.features, nearest_only(scene.matches), scene.model.shapes, camera, limits);
+        return cast_votes<Space>(scene.features, scene.matches, scene.model.shapes, camera, limits,
+                                 scene.frames);
+    return cast_votes<Space>(scene.features, nearest_only(scene.matches), scene.model.shapes, camera, limits,
+                             scene.frames);
 }
 
 }  // namespace ism

@@ -119,9 +119,13 @@ template <VoteSpaceType Space, Kernel K, Rescorer R, Segmenter S, Verifier V>
                          .extract_ms = scene.extract_ms,
                          .match_ms = scene.match_ms};
     Stopwatch watch;
+    if constexpr (Space::needs_pose) add_surface(scene);
     const DetectOptions& options = recognition.options;
     const auto votes = cast_votes<Space>(scene, options.matching, vote_limits(scene, options));
-    auto hypotheses = find_hypotheses<K, Space::dimension>(scene, votes, recognition.bandwidth, options);
+    DescribeHypothesis* describe = describe_hypothesis;
+    if constexpr (Space::needs_pose) describe = describe_posed_hypothesis;
+    auto hypotheses =
+        find_hypotheses<K, Space::dimension>(scene, votes, recognition.bandwidth, options, describe);
     stats.votes = votes.size();
     stats.hypotheses = hypotheses.size();
     stats.vote_ms = watch.lap_ms();

@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
 #include "ism/core/frame.hpp"
+#include "ism/core/local_frame.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/model/model.hpp"
 
 namespace ism {
+
+struct Surface;
 
 /// @brief A frame with its features and the words they look like: all that hypotheses are found, judged and
 /// cut out from, and what every policy of detection sees. FrameMatcher makes it.
@@ -21,6 +26,13 @@ struct Scene {
     std::vector<Feature> features = {};   ///< of all channels, with depth where the frame has depth
     std::vector<Match> matches = {};      ///< all words within the threshold, by feature
     double extract_ms = 0, match_ms = 0;  ///< what it took to find features and matches
+    /// Where there are depth and camera and the vote space, or a policy, asks for them (add_surface()):
+    std::shared_ptr<const Surface> surface = {};         ///< points and normals
+    std::vector<std::optional<LocalFrame>> frames = {};  ///< of the features
 };
+
+/// @brief Adds surface and local frames to a scene: in ism/detect/surface_scene.hpp, which a vote space with
+/// poses needs.
+inline void add_surface(Scene& scene);
 
 }  // namespace ism

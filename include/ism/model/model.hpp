@@ -12,6 +12,7 @@
 #include "ism/model/box_classifier.hpp"
 #include "ism/model/calibration.hpp"
 #include "ism/model/mask_exemplar.hpp"
+#include "ism/model/mask_judge.hpp"
 #include "ism/model/shape_model.hpp"
 
 namespace ism {
@@ -21,6 +22,9 @@ namespace ism {
 struct Channel {
     FeatureSettings features;  ///< how they are found and described
     Codebook codebook = {};
+    /// How many of the nearest words a feature votes through, whatever the threshold, each with as much
+    /// weight as it is nearer than the next one (McCann and Lowe 2012); 0 = all within the threshold.
+    std::size_t neighbours = 0;
 };
 
 /// @brief What training saw, to be told.
@@ -42,7 +46,9 @@ struct Model {
     double word_weight = 0;                    ///< margins of a template that a logit of the words is worth
     Calibration template_calibration = {};     ///< of templates with words; may be empty
     std::vector<MaskExemplar> exemplars = {};  ///< whose masks are lent; may be empty
+    MaskJudge mask_judge = {};                 ///< of regions of RGB-D images; may be empty
     TrainingSummary training = {};
+    std::vector<Model> rgbd = {};  ///< none or one: the model of learn_metric() for frames with depth
 
     /// @brief Number of words of all channels.
     [[nodiscard]] std::size_t words() const { return first_word(channels.size()); }

@@ -7,6 +7,7 @@
 
 #include "ism/core/grouped.hpp"
 #include "ism/model/occurrence.hpp"
+#include "ism/model/occurrence_frame.hpp"
 #include "ism/model/training_object.hpp"
 
 namespace ism {
@@ -18,6 +19,7 @@ struct ShapeModel {
     std::vector<std::string> class_names = {};
     std::vector<TrainingObject> objects = {};
     Grouped<Occurrence> occurrences = {};
+    std::vector<OccurrenceFrame> frames = {};  ///< Occurrence::feature points to one; empty = none
 
     /// @brief Occurrence number i, counted through all words: what Support::occurrence points to.
     [[nodiscard]] const Occurrence& occurrence(std::size_t i) const { return occurrences.values()[i]; }

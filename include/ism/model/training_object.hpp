@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "ism/core/image.hpp"
+#include "ism/core/vec3.hpp"
 
 namespace ism {
 
@@ -21,6 +23,10 @@ struct TrainingObject {
     float size_px = 0;            ///< root of its box's area in the training image
     Mask mask = {};               ///< the box in cells of mask_cell_px: share of figure, 0 … 255
     std::string image = {};       ///< name of the training image, to tell why something was found
+    float size_m = 0;             ///< root of its box's area as a length at centre_m; 0 = not known
+    Vec3f centre_m = {};  ///< in the camera frame of its image: the box's centre at the mask's median depth;
+                          ///< (0, 0, 0) = not known
+    std::vector<Vec3f> points_m = {};  ///< of its surface, as far as it was seen, from its centre_m
 };
 
 /// @brief Share of figure, 0 … 1, of a training object at (x, y) from its centre, pixels at the reference

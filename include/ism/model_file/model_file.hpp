@@ -21,6 +21,7 @@
 #include "ism/model_file/safetensors.hpp"
 #include "ism/model_file/settings_json.hpp"
 #include "ism/model_file/shape_tensors.hpp"
+#include "ism/model_file/surface_tensors.hpp"
 #include "ism/model_file/training_tensors.hpp"
 
 namespace ism {
@@ -28,7 +29,7 @@ namespace ism {
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 8;
+inline constexpr std::int64_t model_format_version = 9;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {
@@ -90,20 +91,24 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
     return join_text("channel_", channel, "_");
 }
 
+/// What the names of a model within a model begin with.
+inline constexpr std::string_view rgbd_prefix = "rgbd/";
+
 /// The tensors of a model, as save_model() writes them.
 [[nodiscard]] inline TensorFile model_to_tensors(const Model& model, const std::string& source) {
     TensorFile file{.source = source};
     // A member that is added to Model does not compile here until it is kept too.
     const auto& [channels, shapes, box_classifier, calibration, templates, word_weight, template_calibration,
-                 exemplars, training] = model;
+                 exemplars, mask_judge, training, rgbd] = model;
     expect<FileError>(model.words() > 0 && shapes.occurrences.size() == model.words(),
                       lazy_text(source, ": words with occurrences"), model.words(),
                       shapes.occurrences.size());
     Json list = Json::array();
     for (std::size_t c = 0; c < channels.size(); ++c) {
-        const auto& [settings, codebook] = channels[c];
+        const auto& [settings, codebook, neighbours] = channels[c];
         Json channel = settings_to_json(settings, source);
         channel["max_sq_distance"] = codebook.max_sq_distance();
+        channel["neighbours"] = neighbours;
         list.push_back(channel);
         codebook_to_tensors(codebook, channel_prefix(c), file);
     }
@@ -124,7 +129,28 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
     file.tensors["word_weight"] = make_tensor<double>(std::array{word_weight}, {1});
     calibration_to_tensors(template_calibration, "template_calibration", file);
     exemplars_to_tensors(exemplars, file);
+    points_to_tensors(shapes.objects, file);
+    frames_to_tensors(shapes.frames, file);
+    mask_judge_to_tensors(mask_judge, file);
+    expect<FileError>(rgbd.size() <= 1, lazy_text(source, ": models for depth"), "at most 1", rgbd.size());
+    for (const Model& inner : rgbd) {
+        TensorFile part = model_to_tensors(inner, source);
+        for (auto& [name, text] : part.metadata)
+            file.metadata[std::string(rgbd_prefix) + name] = std::move(text);
+        for (auto& [name, tensor] : part.tensors)
+            file.tensors[std::string(rgbd_prefix) + name] = std::move(tensor);
+    }
     return file;
+}
+
+/// What has names that begin with `prefix`, without it.
+[[nodiscard]] inline TensorFile part_of(const TensorFile& file, std::string_view prefix) {
+    TensorFile part{.source = file.source};
+    for (const auto& [name, text] : file.metadata)
+        if (name.starts_with(prefix)) part.metadata[name.substr(prefix.size())] = text;
+    for (const auto& [name, tensor] : file.tensors)
+        if (name.starts_with(prefix)) part.tensors[name.substr(prefix.size())] = tensor;
+    return part;
 }
 
 [[nodiscard]] inline Model model_from_tensors(const TensorFile& file) {
@@ -141,6 +167,10 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
                           max_sq_distance);
         channel.codebook = codebook_from_tensors(file, channel_prefix(c), channel.features.dimension,
                                                  max_sq_distance, classes);
+        const std::int64_t neighbours = integer_member(list[c], "neighbours", place);
+        expect<FileError>(neighbours >= 0 && neighbours <= 1000, lazy_text(place, ": neighbours"),
+                          "0 ... 1000", neighbours);
+        channel.neighbours = static_cast<std::size_t>(neighbours);
         model.channels.push_back(std::move(channel));
     }
     const std::string training_place = file.source + ", training";
@@ -159,6 +189,15 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
                       lazy_text(file.source, ": word_weight"), "0 ... 1000", model.word_weight);
     model.template_calibration = calibration_from_tensors(file, "template_calibration", classes);
     model.exemplars = exemplars_from_tensors(file, model.shapes.objects.size());
+    model.shapes.objects = with_points_from_tensors(std::move(model.shapes.objects), file);
+    model.shapes.frames = frames_from_tensors(file, model.shapes.occurrences.values());
+    model.mask_judge = mask_judge_from_tensors(file, model.shapes.objects);
+    if (TensorFile inner = part_of(file, rgbd_prefix); !inner.tensors.empty()) {
+        model.rgbd.push_back(model_from_tensors(inner));
+        expect<FileError>(model.rgbd[0].shapes.class_names == model.shapes.class_names,
+                          lazy_text(file.source, ": classes of the model for depth"), "those of the model",
+                          "others");
+    }
     return model;
 }
 

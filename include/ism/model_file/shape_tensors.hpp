@@ -88,7 +88,8 @@ inline void objects_to_tensors(std::span<const TrainingObject> objects, TensorFi
     Json images = Json::array();
     for (const TrainingObject& o : objects) {
         // A member that is added to TrainingObject does not compile here until it is kept too.
-        const auto& [class_index, width, height, size_px, mask, image] = o;
+        const auto& [class_index, width, height, size_px, mask, image, size_m, centre_m, points_m] = o;
+        // the last three: points_to_tensors()
         sizes.insert(sizes.end(), {width, height, size_px});
         classes.push_back(class_index);
         sides.insert(sides.end(), {std::uint32_t(mask.width()), std::uint32_t(mask.height())});
@@ -210,7 +211,7 @@ inline void check_occurrence(const Occurrence& o, std::span<const TrainingObject
 
 inline void shapes_to_tensors(const ShapeModel& shapes, TensorFile& file) {
     // A member that is added to ShapeModel does not compile here until it is kept too.
-    const auto& [class_names, objects, occurrences] = shapes;
+    const auto& [class_names, objects, occurrences, frames] = shapes;  // frames: frames_to_tensors()
     file.metadata["class_names"] = dump_json(Json(class_names), file.source + ": class names");
     objects_to_tensors(objects, file);
     occurrences_to_tensors(occurrences.values(), "occurrence_", file);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -61,6 +62,16 @@ private:
     ThreadPool pool_{1};
     std::vector<ExtractFeatures> channels_;
 };
+
+/// Depth, camera and masks of an image that has both.
+[[nodiscard]] inline std::optional<TrainingDepth> training_depth(const TrainingImage& image) {
+    const Frame& frame = image.frame;
+    if (frame.depth_m.empty() || !frame.camera) return {};
+    TrainingDepth depth{.depth_m = frame.depth_m, .camera = *frame.camera};
+    for (const LabelledObject& object : image.objects)
+        depth.masks.push_back(region_of(object_mask(object, frame.gray.width(), frame.gray.height())));
+    return depth;
+}
 
 /// What the objects of one image add; they are numbered within the image.
 /// @param most  features of an object in a channel
@@ -161,6 +172,8 @@ private:
             parts[i] = detail::object_features(image, view, most);
             if (options.views) parts[i].views.push_back(std::move(view));
             if (options.views && options.pixels) parts[i].views.back().pixels = colors_of(image.frame);
+            if (options.views && options.depth)
+                parts[i].views.back().depth = detail::training_depth(std::as_const(image));
             if (options.views && options.mirror) {
                 parts[i].views.push_back(workers[worker]->view(mirrored(std::move(image))));
                 parts[i].views.back().mirrored = true;

@@ -22,6 +22,8 @@ struct TrainingFeatureOptions {
     bool views = true;    ///< also keep all features of the images, which box classifier and calibration need
     bool mirror = true;   ///< … and those of the mirrored images
     bool pixels = false;  ///< also keep the images' colours, which templates need
+    bool depth =
+        false;  ///< also keep what images with depth and camera tell of it, which learn_metric() needs
 };
 
 /// @brief Whether classes share words.

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ism/core/camera.hpp"
 #include "ism/core/error.hpp"
+#include "ism/core/region_mask.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/feature_settings.hpp"
 #include "ism/model/model.hpp"
@@ -25,6 +28,13 @@ struct TrainingSamples {
     Descriptors<float> descriptors;
 };
 
+/// @brief What is kept of a training image with depth and camera.
+struct TrainingDepth {
+    DepthMap depth_m = {};
+    Camera camera = {};
+    std::vector<RegionMask> masks = {};  ///< of the labelled objects
+};
+
 /// @brief All features of a training image or of its mirror image, beside the objects too.
 struct TrainingView {
     int width = 0, height = 0;  ///< of the image, pixels
@@ -32,7 +42,8 @@ struct TrainingView {
     std::uint32_t first_object = 0, end_object = 0;  ///< those of TrainingFeatures that the image shows
     bool mirrored = false;  ///< it shows the image of the view before as a mirror shows it
     std::vector<FeatureSet<float>> channels = {};
-    RgbImage pixels = {};  ///< of the image; empty = not kept
+    RgbImage pixels = {};                     ///< of the image; empty = not kept
+    std::optional<TrainingDepth> depth = {};  ///< where the image has depth and camera; none = not kept
 };
 
 /// @brief All that training takes from images: what learn() makes a model of, without them. It can be kept,

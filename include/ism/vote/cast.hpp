@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "ism/codebook/codebook.hpp"
 #include "ism/core/order.hpp"
 #include "ism/model/shape_model.hpp"
+#include "ism/vote/posed_object.hpp"
 #include "ism/vote/vote.hpp"
 #include "ism/vote/vote_space.hpp"
 
@@ -28,6 +30,8 @@ struct VoteLimits {
     /// Training objects first … end − 1 cast no votes, as if they had not been seen: the other occurrences of
     /// a word have its whole weight.
     std::uint32_t without_first = 0, without_end = 0;
+    /// In a space with poses: by how much a feature may be longer or shorter than that of training.
+    double max_size_ratio = 1.5;
 };
 
 namespace detail {
@@ -65,15 +69,15 @@ template <std::predicate<const Occurrence&> LeftOut>
 
 /// @brief Casts the votes of matched features: each through every occurrence of each of its words. Votes
 /// lighter than `min_weight` are dropped, and in a space that needs depth those of features without a
-/// reading.
+/// reading, in one with poses those without a local frame.
 /// @param camera  of the image; null = not known
+/// @param frames  of the features; only for a space with poses
 /// @return the votes by label, then feature, word and occurrence
 template <VoteSpaceType Space>
-[[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(std::span<const Feature> features,
-                                                             std::span<const Match> matches,
-                                                             const ShapeModel& shapes,
-                                                             const Camera* camera = nullptr,
-                                                             const VoteLimits& limits = {}) {
+[[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(
+    std::span<const Feature> features, std::span<const Match> matches, const ShapeModel& shapes,
+    const Camera* camera = nullptr, const VoteLimits& limits = {},
+    std::span<const std::optional<LocalFrame>> frames = {}) {
     using V = Vote<Space::dimension>;
     std::vector<V> votes;
     const auto left_out = [&](const Occurrence& o) {
@@ -88,8 +92,15 @@ template <VoteSpaceType Space>
             const Occurrence& occurrence = word[k];
             const float weight = match.weight * static_cast<float>(occurrence.weight * gain);
             if (weight < limits.min_weight || (limits.without_end > 0 && left_out(occurrence))) continue;
-            const VoteSource source{feature, occurrence, shapes.objects[occurrence.object], camera,
-                                    placement(feature, occurrence)};
+            VoteSource source{feature, occurrence, shapes.objects[occurrence.object], camera,
+                              placement(feature, occurrence)};
+            if constexpr (Space::needs_pose) {
+                const OccurrenceFrame& seen = shapes.frames[occurrence.feature];
+                const auto placed = posed(feature, frames[match.feature], seen, source.object, *camera,
+                                          limits.max_size_ratio);
+                if (!placed) continue;
+                source.pose = placed->first, source.placement = placed->second;
+            }
             const auto& [centre, scale, angle] = source.placement;
             if (scale < limits.min_scale || scale > limits.max_scale) continue;
             if (limits.width > 0 &&

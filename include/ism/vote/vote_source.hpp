@@ -7,6 +7,7 @@
 #include "ism/model/occurrence.hpp"
 #include "ism/model/training_object.hpp"
 #include "ism/vote/placement.hpp"
+#include "ism/vote/pose.hpp"
 
 namespace ism {
 
@@ -17,6 +18,7 @@ struct VoteSource {
     const TrainingObject& object;  ///< on which the word was seen
     const Camera* camera;          ///< of the image; null = not known
     Placement placement;           ///< where the object would lie: placement(feature, occurrence)
+    Pose pose = {};                ///< where it would lie in space; only for axes that need it
 };
 
 }  // namespace ism

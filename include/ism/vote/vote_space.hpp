@@ -44,6 +44,17 @@ public:
         return needs;
     }();
 
+    /// @brief Whether an axis asks where the object would lie in space (VoteSource::pose): only features with
+    /// a local frame vote here.
+    static constexpr bool needs_pose = [] {
+        bool needs = false;
+        auto add = [&]<class A>(std::type_identity<A>) {
+            if constexpr (requires { A::needs_pose; }) needs = needs || A::needs_pose;
+        };
+        (add(std::type_identity<Axes>{}), ...);
+        return needs;
+    }();
+
     /// @brief The continuous axes in order.
     [[nodiscard]] static constexpr std::array<AxisInfo, dimension> axes() {
         std::array<AxisInfo, dimension> infos;

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ism/core/frame.hpp"
+#include "ism/detect/detection.hpp"
+#include "ism/detect/mask_candidates.hpp"
+#include "ism/detect/mask_cues.hpp"
+#include "ism/detect/metric.hpp"
+#include "ism/detect/scene.hpp"
+#include "ism/model/mask_judge.hpp"
+
+namespace ism {
+
+/// @brief A region as a segmentation that is sure of itself.
+[[nodiscard]] inline Segmentation sure_segmentation(const RegionMask& region) {
+    Segmentation result{.x = region.x, .y = region.y, .figure = {}, .ground = {}, .mask = region.mask};
+    result.figure = GrayImage(region.mask.width(), region.mask.height()), result.ground = result.figure;
+    for (std::size_t i = 0; i < region.mask.pixels().size(); ++i)
+        (region.mask.pixels()[i] != 0 ? result.figure : result.ground).pixels()[i] = 1;
+    return result;
+}
+
+/// @brief Judges regions instead of hypotheses: segments of the surface and masks of the votes are candidates
+/// for every class, and MaskJudge tells by votes, colour and shape which they show. For vote spaces with
+/// poses and models of learn_mask_judge(); segmented already, see KeepSegmentation.
+struct MaskJudgeScore {
+    MaskCandidateOptions candidates = {};
+    double min_logit = -6;  ///< less probable ones are not candidates
+
+    [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene& scene) const;
+};
+
+/// @brief The segmentation that a rescorer gave.
+struct KeepSegmentation {
+    [[nodiscard]] Segmentation segment(const Detection& hypothesis, const Scene&) const {
+        return hypothesis.segmentation;
+    }
+};
+
+/// @brief What votes, colour and shape add to the judgement, and whom the region looks like.
+[[nodiscard]] inline MaskReasons mask_reasons(const MaskJudge& judge, const MaskCues& cues,
+                                              const LookDistance& look) {
+    const MaskCues shares = judge.shares(cues);
+    const auto sum = [&](std::size_t first, std::size_t count) {
+        double total = 0;
+        for (std::size_t i = first; i < first + count; ++i) total += shares[i];
+        return total;
+    };
+    return {.votes = sum(0, vote_cue_count),
+            .color = sum(vote_cue_count, 3),
+            .shape = sum(vote_cue_count + 3, 3),
+            .look = sum(vote_cue_count + 6, 6),
+            .color_object = judge.examples[look.color_example].object,
+            .shape_object = judge.examples[look.shape_example].object};
+}
+
+/// @brief The votes of features in a region.
+[[nodiscard]] inline std::vector<Support> support_in(std::span<const Support> votes, const RegionMask& region,
+                                                     const Scene& scene) {
+    std::vector<Support> inside;
+    for (const Support& s : votes) {
+        const Feature& f = scene.features[s.feature];
+        if (contains(region, int(std::lround(f.x)), int(std::lround(f.y)))) inside.push_back(s);
+    }
+    return inside;
+}
+
+/// @brief Places a detection in the camera frame: where at least three of its votes say, else where the ray
+/// through the middle of its box meets the median depth of its region, as for a training object; the standard
+/// error is then the deviation of these depths.
+[[nodiscard]] inline Detection placed(Detection detection, const RegionMask& region, const Scene& scene) {
+    const Surface& surface = *scene.surface;
+    std::vector<float> depths;
+    for (int j = 0; j < region.mask.height(); ++j)
+        for (int i = 0; i < region.mask.width(); ++i)
+            if (region.mask(i, j) != 0 && surface.has_point(region.x + i, region.y + j))
+                depths.push_back(surface.points_m(region.x + i, region.y + j).z);
+    if (depths.empty()) return detection;
+    const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
+    std::nth_element(depths.begin(), middle, depths.end());
+    const double depth_m = *middle;
+    if (detection.support.size() >= 3) {
+        detection = with_voted_position(std::move(detection), scene);
+    } else {
+        double squares = 0;
+        for (const float depth : depths) squares += (depth - depth_m) * (depth - depth_m);
+        detection.position_m = back_project(surface.camera, detection.centre, depth_m);
+        detection.depth_m = depth_m;
+        detection.position_error_m = std::sqrt(squares / double(depths.size()));
+    }
+    detection.size_m = std::sqrt(detection.box.area()) * depth_m / surface.camera.fx;
+    return detection;
+}
+
+inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hypotheses,
+                                                      const Scene& scene) const {
+    const MaskJudge& judge = scene.model.mask_judge;
+    const std::size_t classes = scene.model.shapes.class_names.size();
+    detail::sort_by(hypotheses, [](const Detection& d) { return detail::falling(d.score); });
+    const RgbImage gray_as_color = scene.frame.color.empty() ? colors_of(scene.frame) : RgbImage();
+    const RgbImage& color = scene.frame.color.empty() ? gray_as_color : scene.frame.color;
+    const std::vector<RegionMask> regions = mask_candidates(scene, hypotheses, candidates);
+    std::vector<std::vector<Detection>> judged(regions.size());
+    scene.pool.for_each(regions.size(), [&](std::size_t i, unsigned) {
+        const MaskLook look = describe_mask(scene, color, regions[i], judge.shape_bin_m);
+        const auto votes = region_votes(scene, hypotheses, regions[i]);
+        const auto looks = look_distances(look, judge.examples, classes);
+        const RegionOutline outline = region_outline(*scene.surface, regions[i]);
+        for (std::uint32_t c = 0; c < classes; ++c) {
+            const double logit = judge.logit(mask_cues(votes, looks, outline, c));
+            if (logit < min_logit) continue;
+            Detection detection;
+            detection.class_index = c;
+            detection.score = std::exp(logit);
+            detection.probability = 1 / (1 + std::exp(-logit));
+            detection.box = box_of(regions[i]);
+            detection.centre = detection.box.centre();
+            detection.scale = std::sqrt(detection.box.area()) / reference_size_px;
+            detection.segmentation = sure_segmentation(regions[i]);
+            detection.reasons = mask_reasons(judge, mask_cues(votes, looks, outline, c), looks[c]);
+            if (votes[c].weight > 0)
+                detection.support = support_in(hypotheses[votes[c].hypothesis].support, regions[i], scene);
+            judged[i].push_back(placed(std::move(detection), regions[i], scene));
+        }
+    });
+    std::vector<Detection> result;
+    for (auto& part : judged)
+        for (Detection& detection : part) result.push_back(std::move(detection));
+    return result;
+}
+
+}  // namespace ism

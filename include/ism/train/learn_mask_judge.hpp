@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ism/codebook/match_nearest.hpp"
+#include "ism/codebook/word_index.hpp"
+#include "ism/core/error.hpp"
+#include "ism/core/progress.hpp"
+#include "ism/core/region_mask.hpp"
+#include "ism/core/thread_pool.hpp"
+#include "ism/detect/hypotheses.hpp"
+#include "ism/detect/mask_candidates.hpp"
+#include "ism/detect/mask_cues.hpp"
+#include "ism/detect/mask_judge_score.hpp"
+#include "ism/detect/metric_proposals.hpp"
+#include "ism/model/mask_judge.hpp"
+#include "ism/model/model.hpp"
+#include "ism/train/training_features.hpp"
+
+namespace ism {
+
+/// @brief How the judge of masks is learnt.
+struct MaskJudgeOptions {
+    MaskCandidateOptions candidates = {};
+    double same_iou = 0.5;    ///< a region whose mask and box overlap an object so far shows it
+    double other_iou = 0.35;  ///< one whose mask or box overlaps every object less is background
+    double cost = 0.1;        ///< of an error against the squared weights
+};
+
+namespace detail {
+
+/// A region of a training image: what it looks like, what votes say of it, what it is.
+struct JudgedRegion {
+    MaskExample example;
+    std::vector<RegionVotes> votes;
+    RegionOutline outline;
+};
+
+/// What a region shows by its overlap with the labelled masks; nothing where that is not clear.
+[[nodiscard]] inline std::optional<std::uint32_t> shown_object(const RegionMask& region,
+                                                               std::span<const RegionMask> masks,
+                                                               std::span<const ObjectLabel> labels,
+                                                               const MaskJudgeOptions& options) {
+    std::uint32_t best = MaskExample::background;
+    double mask_iou = 0, box_iou = 0;
+    for (std::uint32_t i = 0; i < masks.size(); ++i)
+        if (const double overlap = iou(region, masks[i]);
+            best == MaskExample::background || overlap > mask_iou)
+            best = i, mask_iou = overlap, box_iou = iou(box_of(region), labels[i].box);
+    if (best == MaskExample::background) return best;
+    if (mask_iou >= options.same_iou && box_iou >= options.same_iou) return best;
+    if (mask_iou < options.other_iou || box_iou < options.other_iou) return MaskExample::background;
+    return {};
+}
+
+/// The regions of a training image: the masks of its objects and what would be candidates in it.
+[[nodiscard]] inline std::vector<JudgedRegion> judged_regions(const TrainingView& view, const Model& model,
+                                                              const WordIndex& words, WordRange own_words,
+                                                              double shape_bin_m,
+                                                              const MaskJudgeOptions& options) {
+    ThreadPool pool(1);
+    const TrainingDepth& depth = *view.depth;
+    const Frame frame{.gray = GrayImage(view.width, view.height),
+                      .color = view.pixels,
+                      .depth_m = depth.depth_m,
+                      .camera = depth.camera};
+    Scene scene{.frame = frame, .model = model, .pool = pool};
+    scene.features = view.channels[0].features;
+    scene.matches =
+        match_nearest(words, view.channels[0].descriptors, model.channels[0].neighbours, pool, own_words);
+    add_surface(scene);
+    const DetectOptions search = metric_proposal_options();
+    const auto votes = cast_votes<Metric>(scene, search.matching, vote_limits(scene, search));
+    auto hypotheses = find_hypotheses<EpanechnikovKernel, Metric::dimension>(
+        scene, votes, default_bandwidth<Metric>(), search, describe_posed_hypothesis);
+    sort_by(hypotheses, [](const Detection& d) { return falling(d.score); });
+    std::vector<RegionMask> regions = depth.masks;
+    for (RegionMask& candidate : mask_candidates(scene, hypotheses, options.candidates))
+        regions.push_back(std::move(candidate));
+    std::vector<JudgedRegion> judged;
+    for (const RegionMask& region : regions) {
+        const auto shown = shown_object(region, depth.masks, view.labels, options);
+        if (!shown) continue;
+        JudgedRegion one{.example = {.look = describe_mask(scene, view.pixels, region, shape_bin_m)},
+                         .votes = region_votes(scene, hypotheses, region),
+                         .outline = region_outline(*scene.surface, region)};
+        if (*shown != MaskExample::background) {
+            one.example.class_index = view.labels[*shown].class_index;
+            one.example.object = view.first_object + *shown;
+        }
+        judged.push_back(std::move(one));
+    }
+    return judged;
+}
+
+/// Weights and bias of a logistic regression over cues of mean 0 and deviation 1 (Newton's method).
+/// @param cost  of the errors against half of the squared weights
+inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
+                             std::span<const std::uint8_t> right, double cost) {
+    constexpr std::size_t n = mask_cue_count + 1;
+    for (std::size_t k = 0; k < mask_cue_count; ++k) {
+        double sum = 0, squares = 0;
+        for (const MaskCues& c : cues) sum += c[k], squares += double(c[k]) * c[k];
+        const double mean = sum / double(cues.size());
+        judge.mean[k] = static_cast<float>(mean);
+        judge.deviation[k] =
+            static_cast<float>(std::sqrt(std::max(1e-12, squares / double(cues.size()) - mean * mean)));
+    }
+    std::array<double, n> w{};
+    for (int step = 0; step < 30; ++step) {
+        std::array<double, n> gradient{};
+        std::array<std::array<double, n>, n> hessian{};
+        for (std::size_t k = 0; k < mask_cue_count; ++k) gradient[k] = w[k], hessian[k][k] = 1;
+        hessian[n - 1][n - 1] = 1e-9;
+        for (std::size_t i = 0; i < cues.size(); ++i) {
+            std::array<double, n> x;
+            double z = 0;
+            for (std::size_t k = 0; k < n; ++k) {
+                x[k] = k + 1 < n ? (double(cues[i][k]) - judge.mean[k]) / judge.deviation[k] : 1;
+                z += w[k] * x[k];
+            }
+            const double p = 1 / (1 + std::exp(-z)), error = cost * (p - right[i]),
+                         weight = cost * p * (1 - p);
+            for (std::size_t a = 0; a < n; ++a) {
+                gradient[a] += error * x[a];
+                for (std::size_t b = 0; b <= a; ++b) hessian[a][b] += weight * x[a] * x[b];
+            }
+        }
+        // Cholesky: hessian = L Lᵀ
+        for (std::size_t a = 0; a < n; ++a)
+            for (std::size_t b = 0; b <= a; ++b) {
+                double sum = hessian[a][b];
+                for (std::size_t k = 0; k < b; ++k) sum -= hessian[a][k] * hessian[b][k];
+                hessian[a][b] = a == b ? std::sqrt(std::max(sum, 1e-12)) : sum / hessian[b][b];
+            }
+        for (std::size_t a = 0; a < n; ++a) {
+            for (std::size_t k = 0; k < a; ++k) gradient[a] -= hessian[a][k] * gradient[k];
+            gradient[a] /= hessian[a][a];
+        }
+        double length = 0;
+        for (std::size_t a = n; a-- > 0;) {
+            for (std::size_t k = a + 1; k < n; ++k) gradient[a] -= hessian[k][a] * gradient[k];
+            gradient[a] /= hessian[a][a];
+            w[a] -= gradient[a];
+            length += gradient[a] * gradient[a];
+        }
+        if (length < 1e-12) break;
+    }
+    for (std::size_t k = 0; k < mask_cue_count; ++k) judge.weights[k] = static_cast<float>(w[k]);
+    judge.bias = static_cast<float>(w[n - 1]);
+}
+
+}  // namespace detail
+
+/// @brief Adds to a model of learn_metric() the judge of masks, from the same training features, whose pixels
+/// and depth were kept: regions of each training image are compared with those of all others and with votes
+/// that its own features have no part in.
+/// @throws Error where no image has pixels, depth and camera.
+[[nodiscard]] inline Model learn_mask_judge(Model model, const TrainingFeatures& features,
+                                            const MaskJudgeOptions& options = {}, unsigned threads = 0,
+                                            const Progress& progress = {}) {
+    std::vector<const TrainingView*> views;
+    std::vector<WordRange> own_words;
+    std::uint32_t word = 0;
+    for (const TrainingView& view : features.views)
+        if (view.depth && !view.mirrored) {
+            expect(!view.pixels.empty(), "judge of masks: colours of training images", "kept", "none");
+            views.push_back(&view);
+            const auto end = word + static_cast<std::uint32_t>(view.channels[0].features.size());
+            own_words.push_back({word, end});
+            word = end;
+        }
+    expect(!views.empty(), "judge of masks: training images with depth and camera", "1 or more", 0);
+    MaskJudge judge;
+    const WordIndex words(model.channels[0].codebook);
+    std::vector<std::vector<detail::JudgedRegion>> regions(views.size());
+    ProgressCounter counter(progress, "judging regions of training images", views.size());
+    parallel_for(views.size(), threads, [&](std::size_t i) {
+        regions[i] =
+            detail::judged_regions(*views[i], model, words, own_words[i], judge.shape_bin_m, options);
+        counter.step();
+    });
+    std::vector<std::size_t> first{0};
+    for (const auto& of_view : regions) {
+        for (const detail::JudgedRegion& region : of_view) judge.examples.push_back(region.example);
+        first.push_back(judge.examples.size());
+    }
+    const std::size_t classes = features.class_names.size();
+    std::vector<MaskCues> cues(judge.examples.size() * classes);
+    std::vector<std::uint8_t> right(cues.size());
+    parallel_for(views.size(), threads, [&](std::size_t v) {
+        for (std::size_t i = first[v]; i < first[v + 1]; ++i) {
+            const detail::JudgedRegion& region = regions[v][i - first[v]];
+            const auto looks =
+                look_distances(region.example.look, judge.examples, classes, first[v], first[v + 1]);
+            for (std::size_t c = 0; c < classes; ++c) {
+                cues[i * classes + c] = mask_cues(region.votes, looks, region.outline, c);
+                right[i * classes + c] = region.example.class_index == c;
+            }
+        }
+    });
+    detail::fit_mask_weights(judge, cues, right, options.cost);
+    model.mask_judge = std::move(judge);
+    return model;
+}
+
+}  // namespace ism
