@@ -19,7 +19,7 @@ namespace ism {
 /// @brief Regions that may be objects: segments of the surface, and the masks of hypotheses.
 struct MaskCandidateOptions {
     SegmentOptions segments = {};
-    std::size_t max_vote_masks = 60;  ///< hypotheses that give a mask, the strongest
+    std::size_t max_vote_masks = 30;  ///< hypotheses that give a mask, the strongest
 };
 
 /// @brief The segments of a scene with a surface, then the masks of hypotheses that are not much like a

@@ -11,7 +11,7 @@ namespace ism {
 /// @brief The features that learn_metric() is best with: many, also of low contrast, each with its
 /// direction.
 [[nodiscard]] inline Extractor<DifferenceOfGaussians, RootSift> metric_extractor() {
-    return {.detector = {.contrast_threshold = 0.015f},
+    return {.detector = {.contrast_threshold = 0.008f},
             .descriptor = {},
             .options = {.scale_space = {}, .oriented = true}};
 }
