@@ -4,12 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/codebook/match.hpp"
 #include "ism/core/frame.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/stopwatch.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/scene.hpp"
@@ -27,7 +27,7 @@ public:
     /// @param extractors  one for each channel of the model
     /// @param pool        works on a frame; has to stay as long as this and its scenes
     /// @throws Error where an extractor is not that of its channel.
-    FrameMatcher(const Model& model, std::span<const AnyExtractor> extractors, ThreadPool& pool)
+    FrameMatcher(const Model& model, const std::vector<AnyExtractor>& extractors, ThreadPool& pool)
         : model_(model), pool_(pool) {
         expect(extractors.size() == model.channels.size(), "detection: extractors, one a channel",
                model.channels.size(), extractors.size());
@@ -55,7 +55,7 @@ public:
             const FeatureSet<float>& found = channel.extract(frame);
             scene.extract_ms += watch.lap_ms();
             const auto first = static_cast<std::uint32_t>(scene.features.size());
-            scene.features.insert(scene.features.end(), found.features.begin(), found.features.end());
+            detail::append(scene.features, found.features);
             for (Match match : match(channel.words, found.descriptors, pool_)) {
                 match.feature += first, match.word += channel.first_word;
                 scene.matches.push_back(match);

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/codebook/match.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
@@ -44,7 +44,7 @@ namespace ism {
     result.class_index =
         static_cast<std::uint32_t>(std::max_element(of_class.begin(), of_class.end()) - of_class.begin());
     result.score = score;
-    std::erase_if(window, [&](const Support& s) {
+    detail::drop_if(window, [&](const Support& s) {
         return shapes.occurrence(s.occurrence).class_index != result.class_index;
     });
 
@@ -84,12 +84,11 @@ namespace ism {
 /// @param votes  as cast_votes() gives them: by rising label
 template <Kernel K, std::size_t Dimension>
 [[nodiscard]] std::vector<Detection> find_hypotheses(const Scene& scene,
-                                                     std::span<const Vote<Dimension>> votes,
+                                                     const std::vector<Vote<Dimension>>& votes,
                                                      const Bandwidth<Dimension>& bandwidth,
                                                      const DetectOptions& options) {
     const auto labels = split_by_label(votes);
-    const auto modes = strongest_modes<K>(std::span<const std::span<const Vote<Dimension>>>(labels),
-                                          bandwidth, options.mean_shift, options.max_candidates,
+    const auto modes = strongest_modes<K>(labels, bandwidth, options.mean_shift, options.max_candidates,
                                           options.min_relative_score, scene.pool);
     std::vector<Detection> hypotheses(modes.size());
     scene.pool.for_each(modes.size(), [&](std::size_t i, unsigned) {
@@ -104,7 +103,7 @@ template <Kernel K, std::size_t Dimension>
         }
         hypotheses[i] = describe_hypothesis(modes[i].score, std::move(window), scene);
     });
-    std::erase_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
+    detail::drop_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
     return hypotheses;
 }
 

@@ -69,8 +69,8 @@ template <std::predicate<const Occurrence&> LeftOut>
 /// @param camera  of the image; null = not known
 /// @return the votes by label, then feature, word and occurrence
 template <VoteSpaceType Space>
-[[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(std::span<const Feature> features,
-                                                             std::span<const Match> matches,
+[[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(const std::vector<Feature>& features,
+                                                             const std::vector<Match>& matches,
                                                              const ShapeModel& shapes,
                                                              const Camera* camera = nullptr,
                                                              const VoteLimits& limits = {}) {
