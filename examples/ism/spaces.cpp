@@ -41,7 +41,7 @@ struct ChosenSegmenter {
 struct ChosenVerifier {
     bool suppression = false;
     [[nodiscard]] bool needs_masks() const { return !suppression; }
-    [[nodiscard]] std::vector<ism::Verified> verify(std::span<const ism::Detection> hypotheses,
+    [[nodiscard]] std::vector<ism::Verified> verify(const std::vector<ism::Detection>& hypotheses,
                                                     const ism::Scene& scene) const {
         return suppression ? ism::NonMaximumSuppression{.max_inside = 0.5, .across_classes = false}.verify(
                                  hypotheses, scene)

@@ -32,7 +32,7 @@ Known lessons_of(const std::filesystem::path& path, ism::TrainOptions& options) 
     const ism::Channel& channel = model.channels.front();
     options.codebook.min_similarity =
         1 - channel.codebook.max_sq_distance() / (2 * channel.features.sq_length);
-    const auto groups = channel.codebook.groups();
+    const auto& groups = channel.codebook.groups();
     if (std::any_of(groups.begin(), groups.end(), [](std::uint32_t group) { return group > 0; }))
         options.codebook.kind = ism::CodebookKind::per_class;
     options.features.choose_upsampling = false;

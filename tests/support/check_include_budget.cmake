@@ -7,20 +7,20 @@ cmake_minimum_required(VERSION 3.22)
 #   header | headers of ours it may reach | libraries it may reach (of those below)
 set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "iostream" "regex")
 set(budget
-    "ism.hpp                    | 140 | "
+    "ism.hpp                    | 143 | "
     "vote/axes.hpp              |  17 | "
-    "detect/detect.hpp          |  97 | "
+    "detect/detect.hpp          | 100 | "
     "train/train_options.hpp    |   6 | "
     "train/training_image.hpp   |  10 | "
-    "train/train.hpp            | 125 | "
+    "train/train.hpp            | 128 | "
     "evaluate/evaluate.hpp      |  10 | "
     "core/frame.hpp             |   8 | "
-    "feature/hessian_laplace.hpp|  26 | "
+    "feature/hessian_laplace.hpp|  27 | "
     "feature/sift.hpp           |  24 | "
     "dataset/dataset.hpp        |  13 | "
     "dataset/coco.hpp           |  18 | nlohmann/"
     "io/images.hpp              |  12 | stb/"
-    "model_file/model_file.hpp  |  59 | nlohmann/"
+    "model_file/model_file.hpp  |  61 | nlohmann/"
 )
 set(errors "")
 

@@ -86,9 +86,10 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
     return model;
 }
 
-template <class T>
-bool same_bytes(std::span<const T> a, std::span<const T> b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+template <class List>
+bool same_bytes(const List& a, const List& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(*a.data())) == 0);
 }
 
 void check_equal(const ism::Model& a, const ism::Model& b) {

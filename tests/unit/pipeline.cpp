@@ -164,7 +164,7 @@ TEST_CASE("results tell how much there was to do at each station") {
 
 TEST_CASE("where masks are not needed to verify, only what stays is cut out") {
     struct MasksFirst {
-        [[nodiscard]] std::vector<ism::Verified> verify(std::span<const ism::Detection> hypotheses,
+        [[nodiscard]] std::vector<ism::Verified> verify(const std::vector<ism::Detection>& hypotheses,
                                                         const ism::Scene&) const {
             for (const ism::Detection& hypothesis : hypotheses)
                 CHECK_FALSE(hypothesis.segmentation.mask.empty());

@@ -389,9 +389,8 @@ TEST_CASE("the strongest modes of all labels are those of searching every label,
             for (auto vote : part) vote.label += 1, votes.push_back(vote);
     }
     const auto bandwidth = mixed_bandwidth<3>(15);
-    const auto labels = ism::split_by_label(std::span<const ism::Vote<3>>(votes));
+    const auto labels = ism::split_by_label(votes);
     CHECK(labels.size() == 220);
-    const std::span<const std::span<const ism::Vote<3>>> parts(labels);
     std::vector<ism::Mode<3>> all;
     for (const auto& part : labels)
         for (const auto& mode : ism::find_modes<ism::EpanechnikovKernel>(part, bandwidth))
@@ -405,12 +404,12 @@ TEST_CASE("the strongest modes of all labels are those of searching every label,
                     expected.push_back(mode);
             for (const unsigned threads : {1u, 2u, 3u}) {
                 ism::ThreadPool pool(threads);
-                CHECK(same_bits(expected, ism::strongest_modes<ism::EpanechnikovKernel>(parts, bandwidth, {},
+                CHECK(same_bits(expected, ism::strongest_modes<ism::EpanechnikovKernel>(labels, bandwidth, {},
                                                                                         most, keep, pool)));
             }
         }
     for (const double bad : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()})
-        CHECK_THROWS_AS(ism::strongest_modes<ism::FlatKernel>(parts, bandwidth, {}, 40, bad, 1), ism::Error);
+        CHECK_THROWS_AS(ism::strongest_modes<ism::FlatKernel>(labels, bandwidth, {}, 40, bad, 1), ism::Error);
     CHECK(ism::strongest_modes<ism::FlatKernel, 3>({}, bandwidth, {}, 40, 0.05, 2).empty());
 }
 
@@ -426,10 +425,9 @@ TEMPLATE_TEST_CASE("the support of a mode is what a scan of all votes of its lab
         votes.push_back({.at = {std::nextafter(15.0f, float(i) * 1e9f), 0, 0}, .weight = 1, .label = 11});
     votes.push_back({.at = {0, 0, 0}, .weight = 1e6f, .label = 11});
     const ism::Bandwidth<3> bandwidth{{15, 15, 15}, {grows, grows, stays}};
-    const auto labels = ism::split_by_label(std::span<const ism::Vote<3>>(votes));
+    const auto labels = ism::split_by_label(votes);
     ism::ThreadPool pool(2);
-    const auto modes = ism::strongest_modes<TestType>(std::span<const std::span<const ism::Vote<3>>>(labels),
-                                                      bandwidth, {}, 200, 0, pool);
+    const auto modes = ism::strongest_modes<TestType>(labels, bandwidth, {}, 200, 0, pool);
     REQUIRE(modes.size() > 8);
     for (const auto& mode : modes) {
         const auto own = *std::find_if(labels.begin(), labels.end(),
@@ -455,11 +453,10 @@ TEST_CASE("the strongest modes by the tree are those by the grid") {
         votes.insert(votes.end(), part.begin(), part.end());
     }
     const auto bandwidth = mixed_bandwidth<4>(15);
-    const auto labels = ism::split_by_label(std::span<const ism::Vote<4>>(votes));
-    const std::span<const std::span<const ism::Vote<4>>> parts(labels);
-    const auto grid = ism::strongest_modes<ism::EpanechnikovKernel>(parts, bandwidth, {}, 30, 0.1, 2);
+    const auto labels = ism::split_by_label(votes);
+    const auto grid = ism::strongest_modes<ism::EpanechnikovKernel>(labels, bandwidth, {}, 30, 0.1, 2);
     const auto tree =
-        ism::strongest_modes<ism::EpanechnikovKernel, 4, ism::VoteTree<4>>(parts, bandwidth, {}, 30, 0.1, 2);
+        ism::strongest_modes<ism::EpanechnikovKernel, 4, ism::VoteTree<4>>(labels, bandwidth, {}, 30, 0.1, 2);
     REQUIRE(grid.size() == 30);
     REQUIRE(tree.size() == grid.size());
     for (std::size_t m = 0; m < grid.size(); ++m) {

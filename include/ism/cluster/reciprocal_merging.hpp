@@ -15,6 +15,7 @@
 #include "ism/cluster/neighbour_lists.hpp"
 #include "ism/cluster/neighbour_search.hpp"
 #include "ism/cluster/update_neighbours.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/core/processor.hpp"
 #include "ism/core/thread_pool.hpp"
@@ -54,7 +55,7 @@ public:
             search_again();
         }
         sort_merges(trace_);
-        std::erase_if(trace_.merges, [&](const Merge& m) { return m.sq_distance > trace_.max_sq_distance; });
+        drop_if(trace_.merges, [&](const Merge& m) { return m.sq_distance > trace_.max_sq_distance; });
         return std::move(trace_);
     }
 
@@ -67,7 +68,7 @@ private:
     void merge_equal() {
         std::vector<Ranked> order;
         for (const std::uint32_t i : alive_) order.push_back({clusters_.fingerprint(i), i});
-        sort_ranked(order);
+        sort_ranked(order.data(), order.size());
         for (std::size_t first = 0, at = 1; at < order.size(); ++at) {
             const std::uint32_t kept = order[first].index, gone = order[at].index;
             if (order[first].key != order[at].key || !clusters_.equal(kept, gone)) {
@@ -82,7 +83,7 @@ private:
 
     /// Clusters without a neighbour on their lists are final: merging others never brings them nearer.
     bool keep_those_with_neighbours() {
-        std::erase_if(alive_, [&](std::uint32_t i) { return lists_.of(i).empty(); });
+        drop_if(alive_, [&](std::uint32_t i) { return lists_.of(i).empty(); });
         return !alive_.empty();
     }
 
@@ -119,7 +120,7 @@ private:
     }
 
     void forget_gone() {
-        std::erase_if(alive_, [&](std::uint32_t i) { return merged_.merged_into[i] != i; });
+        drop_if(alive_, [&](std::uint32_t i) { return merged_.merged_into[i] != i; });
     }
 
     /// Brings all lists up to date with the merges of the round.

@@ -45,7 +45,7 @@ public:
     [[nodiscard]] double spread() const { return spread_; }
 
     /// Makes a block of queries ready. @param rows filter_block rows
-    void prepare(std::span<const float> rows, std::span<const double> sq_lengths, double max_sq_distance,
+    void prepare(std::span<const float> rows, const std::vector<double>& sq_lengths, double max_sq_distance,
                  Block& block) const;
 
     /// Sets how far query i reaches. One of infinite squared length reaches nothing.
@@ -123,7 +123,7 @@ inline ByteFilter::ByteFilter(std::span<const float> words, std::span<const floa
     slack_ = 4 * largest_length_ * largest_error_;
 }
 
-inline void ByteFilter::prepare(std::span<const float> rows, std::span<const double> sq_lengths,
+inline void ByteFilter::prepare(std::span<const float> rows, const std::vector<double>& sq_lengths,
                                 double max_sq_distance, Block& block) const {
     block.rows.assign(filter_block * padded_, 0);
     block.limits.resize(filter_block), block.rest.resize(filter_block), block.bias.resize(filter_group);

@@ -47,12 +47,12 @@ public:
 
     /// @brief The means of all words, and what else is known of each: a list as long as there are words.
     [[nodiscard]] const Descriptors<float>& means() const { return means_; }
-    [[nodiscard]] std::span<const float> mean_sq_lengths() const { return mean_sq_lengths_; }
-    [[nodiscard]] std::span<const std::uint32_t> sizes() const { return sizes_; }
-    [[nodiscard]] std::span<const std::uint32_t> groups() const { return groups_; }
+    [[nodiscard]] const std::vector<float>& mean_sq_lengths() const { return mean_sq_lengths_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& sizes() const { return sizes_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& groups() const { return groups_; }
 
     /// @brief A codebook of some of the words, in the order given.
-    [[nodiscard]] Codebook select(std::span<const std::uint32_t> words) const {
+    [[nodiscard]] Codebook select(const std::vector<std::uint32_t>& words) const {
         Codebook selected(dimension(), max_sq_distance_);
         for (const std::uint32_t word : words) selected.push_back((*this)[word]);
         return selected;

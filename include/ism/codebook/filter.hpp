@@ -22,7 +22,7 @@ constexpr std::size_t filter_block = 96, filter_tile = 12, filter_group = 64;
 /// Tells which words may lie within reach of each query of a block, and misses none.
 template <class F>
 concept CandidateFilter = requires(const F& filter, typename F::Block& block, std::span<const float> rows,
-                                   std::span<const double> sq_lengths, std::span<std::uint64_t> masks) {
+                                   const std::vector<double>& sq_lengths, std::span<std::uint64_t> masks) {
     { filter.prepare(rows, sq_lengths, 1.0, block) } -> std::same_as<void>;
     { filter.limit(block, std::size_t(0), 1.0, 1.0) } -> std::same_as<void>;
     { filter.masks(block, std::size_t(0), masks) } -> std::same_as<void>;

@@ -46,7 +46,7 @@ public:
     }
 
     /// Makes a block of queries ready. @param rows padded to filter_block queries
-    void prepare(std::span<const float> rows, std::span<const double> sq_lengths, double max_sq_distance,
+    void prepare(std::span<const float> rows, const std::vector<double>& sq_lengths, double max_sq_distance,
                  Block& block) const {
         block.rows.assign(rows.begin(), rows.end());
         block.limits.resize(filter_block);

@@ -6,13 +6,13 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
 #include "ism/codebook/match_block.hpp"
 #include "ism/codebook/word_index.hpp"
 #include "ism/core/error.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/feature/feature.hpp"
 
@@ -45,7 +45,7 @@ inline constexpr std::size_t max_matches = std::size_t(1) << 26;
     std::vector<Match> matches;
     matches.reserve(total);
     for (std::vector<Match>& part : found) {
-        matches.insert(matches.end(), part.begin(), part.end());
+        detail::append(matches, part);
         part = {};
     }
     return matches;
@@ -60,7 +60,7 @@ inline constexpr std::size_t max_matches = std::size_t(1) << 26;
 }
 
 /// @brief Of the matches of match() the nearest word of each group, with the weight 1.
-[[nodiscard]] inline std::vector<Match> nearest_only(std::span<const Match> matches) {
+[[nodiscard]] inline std::vector<Match> nearest_only(const std::vector<Match>& matches) {
     std::vector<Match> nearest;
     for (const Match& match : matches)
         if (match.nearest) nearest.push_back({match.feature, match.word, 1.0f, true});

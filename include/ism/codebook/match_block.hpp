@@ -76,19 +76,19 @@ private:
         std::vector<Match> matches;
         matches.reserve(hits_.size());
         for (std::size_t i = 0; i < queries_.count(); ++i) {
-            const auto own = std::span(sorted_).subspan(begin[i], begin[i + 1] - begin[i]);
-            for (const Hit& hit : own) {
-                OfGroup& group = of_group_[index_->group(hit.word)];
+            const Hit *const first = sorted_.data() + begin[i], *const end = sorted_.data() + begin[i + 1];
+            for (const Hit* hit = first; hit < end; ++hit) {
+                OfGroup& group = of_group_[index_->group(hit->word)];
                 ++group.count;
-                if (hit.sq_distance < group.sq_distance)
-                    group.sq_distance = hit.sq_distance, group.nearest = hit.word;
+                if (hit->sq_distance < group.sq_distance)
+                    group.sq_distance = hit->sq_distance, group.nearest = hit->word;
             }
-            for (const Hit& hit : own) {
-                const OfGroup& group = of_group_[index_->group(hit.word)];
-                matches.push_back({std::uint32_t(queries_.first() + i), hit.word, 1.0f / float(group.count),
-                                   group.nearest == hit.word});
+            for (const Hit* hit = first; hit < end; ++hit) {
+                const OfGroup& group = of_group_[index_->group(hit->word)];
+                matches.push_back({std::uint32_t(queries_.first() + i), hit->word, 1.0f / float(group.count),
+                                   group.nearest == hit->word});
             }
-            for (const Hit& hit : own) of_group_[index_->group(hit.word)] = {};
+            for (const Hit* hit = first; hit < end; ++hit) of_group_[index_->group(hit->word)] = {};
         }
         return matches;
     }

@@ -53,7 +53,7 @@ public:
     /// Of filter_block rows.
     [[nodiscard]] std::span<const float> rows() const { return rows_; }
     /// Of filter_block rows; infinite or NaN for those that reach nothing.
-    [[nodiscard]] std::span<const double> sq_lengths() const { return sq_lengths_; }
+    [[nodiscard]] const std::vector<double>& sq_lengths() const { return sq_lengths_; }
 
     /// The distance of query i to a word.
     [[nodiscard]] double sq_distance(std::size_t i, std::size_t word) const {

@@ -27,8 +27,8 @@ public:
     /// instruction set that the processor lacks.
     explicit WordIndex(const Codebook& codebook, InstructionSet isa = best_instruction_set())
         : words_(codebook.means().values().begin(), codebook.means().values().end()),
-          mean_sq_lengths_(codebook.mean_sq_lengths().begin(), codebook.mean_sq_lengths().end()),
-          groups_(codebook.groups().begin(), codebook.groups().end()),
+          mean_sq_lengths_(codebook.mean_sq_lengths()),
+          groups_(codebook.groups()),
           dimension_(codebook.dimension()),
           max_sq_distance_(codebook.max_sq_distance()) {
         expect(has_instruction_set(isa), "matching: instruction set", "one that the processor has", int(isa));
@@ -98,7 +98,7 @@ private:
     void number_groups() {
         std::vector<detail::Ranked> order;
         for (std::uint32_t word = 0; word < size(); ++word) order.push_back({groups_[word], word});
-        detail::sort_ranked(order);
+        detail::sort_ranked(order.data(), order.size());
         for (std::size_t i = 0; i < order.size(); ++i) {
             group_count_ += i == 0 || order[i].key != order[i - 1].key;
             groups_[order[i].index] = static_cast<std::uint32_t>(group_count_ - 1);

@@ -36,23 +36,24 @@ public:
     [[nodiscard]] bool empty() const { return size() == 0; }
 
     [[nodiscard]] std::span<const T> operator[](std::size_t group) const {
-        return std::span(values_).subspan(offsets_[group], offsets_[group + 1] - offsets_[group]);
+        return {values_.data() + offsets_[group], offsets_[group + 1] - offsets_[group]};
     }
     [[nodiscard]] std::span<T> operator[](std::size_t group) {
-        return std::span(values_).subspan(offsets_[group], offsets_[group + 1] - offsets_[group]);
+        return {values_.data() + offsets_[group], offsets_[group + 1] - offsets_[group]};
     }
 
     /// @brief Number, among all values, of the first of a group.
     [[nodiscard]] std::uint32_t first(std::size_t group) const { return offsets_[group]; }
 
     /// @brief All values, group after group.
-    [[nodiscard]] std::span<const T> values() const { return values_; }
-    [[nodiscard]] std::span<T> values() { return values_; }
-    [[nodiscard]] std::span<const std::uint32_t> offsets() const { return offsets_; }
+    [[nodiscard]] const std::vector<T>& values() const { return values_; }
+    [[nodiscard]] std::span<T> values() { return {values_.data(), values_.size()}; }
+    [[nodiscard]] const std::vector<std::uint32_t>& offsets() const { return offsets_; }
 
-    /// @brief Adds a group.
-    void push_back(std::span<const T> group) {
-        values_.insert(values_.end(), group.begin(), group.end());
+    /// @brief Adds a group, of any list of values.
+    template <class Values = std::vector<T>>
+    void push_back(const Values& group) {
+        for (const T& value : group) values_.push_back(value);
         offsets_.push_back(static_cast<std::uint32_t>(values_.size()));
     }
 

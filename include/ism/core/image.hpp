@@ -100,12 +100,12 @@ public:
     [[nodiscard]] T& operator()(int x, int y) { return pixels_[offset(x, y)]; }
     [[nodiscard]] const T& operator()(int x, int y) const { return pixels_[offset(x, y)]; }
 
-    [[nodiscard]] std::span<T> row(int y) { return pixels().subspan(offset(0, y), std::size_t(width_)); }
+    [[nodiscard]] std::span<T> row(int y) { return {pixels_.data() + offset(0, y), std::size_t(width_)}; }
     [[nodiscard]] std::span<const T> row(int y) const {
-        return pixels().subspan(offset(0, y), std::size_t(width_));
+        return {pixels_.data() + offset(0, y), std::size_t(width_)};
     }
-    [[nodiscard]] std::span<T> pixels() { return pixels_; }
-    [[nodiscard]] std::span<const T> pixels() const { return pixels_; }
+    [[nodiscard]] std::span<T> pixels() { return {pixels_.data(), pixels_.size()}; }
+    [[nodiscard]] std::span<const T> pixels() const { return {pixels_.data(), pixels_.size()}; }
 
     [[nodiscard]] ImageView<const T> view() const { return {pixels_.data(), width_, height_, width_}; }
     [[nodiscard]] ImageView<T> view() { return {pixels_.data(), width_, height_, width_}; }

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 
+#include "ism/core/callable.hpp"
 #include "ism/core/processor.hpp"
 
 namespace ism::detail {
@@ -32,7 +33,7 @@ requires(std::has_single_bit(N)) struct Lanes {
 };
 
 /// Σ term(k) over k < size in N lanes.
-template <std::floating_point T, std::size_t N, std::invocable<std::size_t> Term>
+template <std::floating_point T, std::size_t N, Callable<std::size_t> Term>
 [[nodiscard]] ISM_DETAIL_INLINE T sum_in_lanes(std::size_t size, const Term& term) {
     Lanes<T, N> lanes;
     std::size_t k = 0;

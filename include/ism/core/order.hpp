@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "ism/config.hpp"
+#include "ism/core/callable.hpp"
 
 /// Whatever is sorted is sorted by whole numbers, and by the one function here: each other type that
 /// std::sort() or std::stable_sort() meets costs every compilation some megabytes.
@@ -47,22 +45,29 @@ struct Ranked {
 };
 
 /// By rising key, of equal ones by index. Allocates nothing.
-inline void sort_ranked(std::span<Ranked> ranked) {
-    std::sort(ranked.data(), ranked.data() + ranked.size(), [](const Ranked& a, const Ranked& b) {
+inline void sort_ranked(Ranked* ranked, std::size_t count) {
+    std::sort(ranked, ranked + count, [](const Ranked& a, const Ranked& b) {
         return a.key < b.key || (a.key == b.key && a.index < b.index);
     });
 }
 
 /// Sorts values by rising key(value); equal ones stay in their order.
-template <class T, std::invocable<const T&> Key>
+template <class T, Callable<const T&> Key>
 void sort_by(std::vector<T>& values, const Key& key) {
     std::vector<Ranked> order(values.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = {key(values[i]), i};
-    sort_ranked(order);
-    std::vector<T> sorted;
-    sorted.reserve(values.size());
-    for (const Ranked& next : order) sorted.push_back(std::move(values[next.index]));
-    values = std::move(sorted);
+    sort_ranked(order.data(), order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        if (order[i].index == i) continue;
+        T first = std::move(values[i]);  // of a cycle of values that change places
+        std::uint32_t to = i;
+        while (order[to].index != i) {
+            values[to] = std::move(values[order[to].index]);
+            to = std::exchange(order[to].index, to);
+        }
+        values[to] = std::move(first);
+        order[to].index = to;
+    }
 }
 
 }  // namespace ism::detail

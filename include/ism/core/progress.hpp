@@ -3,18 +3,17 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <mutex>
 #include <string_view>
 #include <utility>
 
-#include "ism/config.hpp"
+#include "ism/core/function.hpp"
 
 namespace ism {
 
 /// @brief Progress callback for long-running work: what is being done, how much of it is done, how much there
 /// is. May be called from any thread, one call at a time.
-using Progress = std::function<void(std::string_view stage, std::size_t done, std::size_t total)>;
+using Progress = Function<void(std::string_view stage, std::size_t done, std::size_t total)>;
 
 /// @brief Counts the steps of a stage for a progress callback, from several threads.
 class ProgressCounter {

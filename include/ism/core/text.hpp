@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -36,7 +35,7 @@ public:
     TextPart(float value) : kind_(Kind::real), real_(double(value)) {}
     TextPart(double value) : kind_(Kind::real), real_(value) {}
     template <std::size_t Count>
-    TextPart(const LazyText<Count>& parts) : kind_(Kind::list), list_(parts.parts) {}
+    TextPart(const LazyText<Count>& parts) : kind_(Kind::list), list_{parts.parts.data(), Count} {}
 
     void append_to(std::string& text) const {
         std::array<char, 32> digits;
@@ -59,11 +58,15 @@ public:
                 append(std::to_chars(digits.data(), last, real_, std::chars_format::general, 6));
                 break;
             case Kind::list:
-                for (const TextPart& part : list_) part.append_to(text);
+                for (std::size_t i = 0; i < list_.count; ++i) list_.first[i].append_to(text);
         }
     }
 
 private:
+    struct Parts {
+        const TextPart* first;
+        std::size_t count;
+    };
     enum class Kind : unsigned char { text, one, signed_number, unsigned_number, real, list };
 
     Kind kind_;
@@ -72,7 +75,7 @@ private:
         long long signed_;
         unsigned long long unsigned_;
         double real_;
-        std::span<const TextPart> list_;
+        Parts list_;
     };
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -12,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "ism/core/callable.hpp"
 #include "ism/core/error.hpp"
 
 namespace ism {
@@ -51,7 +51,7 @@ public:
     /// to its worker for the duration of the call; then the result is the same for any number of threads.
     /// @throws whatever `body` throws for the smallest i that throws; calls not yet begun are dropped. Error
     /// where a loop of this pool is running already.
-    template <std::invocable<std::size_t, unsigned> Body>
+    template <Callable<std::size_t, unsigned> Body>
     void for_each(std::size_t count, const Body& body) {
         run(
             count,
@@ -146,7 +146,7 @@ private:
 /// @brief Calls `body(i)` for each i in [0, count) on up to `threads` threads (0 = all hardware threads), as
 /// ThreadPool::for_each() does.
 /// @throws as ThreadPool::for_each() does.
-template <std::invocable<std::size_t> Body>
+template <Callable<std::size_t> Body>
 void parallel_for(std::size_t count, unsigned threads, const Body& body) {
     ThreadPool pool(unsigned(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(1, count))));
     pool.for_each(count, [&](std::size_t i, unsigned) { body(i); });

@@ -37,7 +37,7 @@ namespace ism {
         std::vector<detail::Ranked> order;
         for (std::uint32_t c = 0; c < classes; ++c)
             if (c != proposal.class_index) order.push_back({detail::falling(weight[c]), c});
-        detail::sort_ranked(order);
+        detail::sort_ranked(order.data(), order.size());
         asked[proposal.class_index].push_back(proposal);
         for (std::size_t i = 0; i + 1 < max_classes; ++i) asked[order[i].index].push_back(proposal);
     }

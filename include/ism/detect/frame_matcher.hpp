@@ -4,13 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/codebook/match.hpp"
 #include "ism/codebook/match_nearest.hpp"
 #include "ism/core/frame.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/stopwatch.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/scene.hpp"
@@ -28,7 +28,7 @@ public:
     /// @param extractors  one for each channel of the model
     /// @param pool        works on a frame; has to stay as long as this and its scenes
     /// @throws Error where an extractor is not that of its channel.
-    FrameMatcher(const Model& model, std::span<const AnyExtractor> extractors, ThreadPool& pool)
+    FrameMatcher(const Model& model, const std::vector<AnyExtractor>& extractors, ThreadPool& pool)
         : model_(model), pool_(pool) {
         expect(extractors.size() == model.channels.size(), "detection: extractors, one a channel",
                model.channels.size(), extractors.size());
@@ -56,7 +56,7 @@ public:
             const FeatureSet<float>& found = channel.extract(frame);
             scene.extract_ms += watch.lap_ms();
             const auto first = static_cast<std::uint32_t>(scene.features.size());
-            scene.features.insert(scene.features.end(), found.features.begin(), found.features.end());
+            detail::append(scene.features, found.features);
             const bool nearest = channel.neighbours > 0;
             for (Match match :
                  nearest ? match_nearest(channel.words, found.descriptors, channel.neighbours, pool_)

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/codebook/match.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
@@ -47,7 +47,7 @@ using DescribeHypothesis = Detection(double score, std::vector<Support> window, 
     result.class_index =
         static_cast<std::uint32_t>(std::max_element(of_class.begin(), of_class.end()) - of_class.begin());
     result.score = score;
-    std::erase_if(window, [&](const Support& s) {
+    detail::drop_if(window, [&](const Support& s) {
         return shapes.occurrence(s.occurrence).class_index != result.class_index;
     });
 
@@ -92,13 +92,12 @@ using DescribeHypothesis = Detection(double score, std::vector<Support> window, 
 /// @param describe  describe_hypothesis() or describe_posed_hypothesis()
 template <Kernel K, std::size_t Dimension>
 [[nodiscard]] std::vector<Detection> find_hypotheses(const Scene& scene,
-                                                     std::span<const Vote<Dimension>> votes,
+                                                     const std::vector<Vote<Dimension>>& votes,
                                                      const Bandwidth<Dimension>& bandwidth,
                                                      const DetectOptions& options,
                                                      DescribeHypothesis* describe = describe_hypothesis) {
     const auto labels = split_by_label(votes);
-    const auto modes = strongest_modes<K>(std::span<const std::span<const Vote<Dimension>>>(labels),
-                                          bandwidth, options.mean_shift, options.max_candidates,
+    const auto modes = strongest_modes<K>(labels, bandwidth, options.mean_shift, options.max_candidates,
                                           options.min_relative_score, scene.pool);
     std::vector<Detection> hypotheses(modes.size());
     scene.pool.for_each(modes.size(), [&](std::size_t i, unsigned) {
@@ -113,7 +112,7 @@ template <Kernel K, std::size_t Dimension>
         }
         hypotheses[i] = describe(modes[i].score, std::move(window), scene);
     });
-    std::erase_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
+    detail::drop_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
     return hypotheses;
 }
 

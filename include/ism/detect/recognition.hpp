@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/core/stopwatch.hpp"
 #include "ism/detect/detect_options.hpp"
@@ -60,7 +60,7 @@ template <Rescorer R, Segmenter S, Verifier V>
     hypotheses = rescorer.rescore(std::move(hypotheses), scene);
     sort_by(hypotheses, strongest_first);
     stats.candidates = hypotheses.size();
-    while (hypotheses.size() > options.max_hypotheses) hypotheses.pop_back();
+    keep_first(hypotheses, options.max_hypotheses);
     stats.rescore_ms = watch.lap_ms();
     const auto segment = [&](std::vector<Detection>& detections) {
         scene.pool.for_each(detections.size(), [&](std::size_t i, unsigned) {
@@ -72,7 +72,7 @@ template <Rescorer R, Segmenter S, Verifier V>
     const bool masks_first = needs_masks(verifier);
     if (masks_first) segment(hypotheses);
     Detections result;
-    for (const Verified& verified : verifier.verify(std::span<const Detection>(hypotheses), scene)) {
+    for (const Verified& verified : verifier.verify(hypotheses, scene)) {
         result.objects.push_back(std::move(hypotheses[verified.index]));
         result.objects.back().score = verified.score;
     }
@@ -81,7 +81,7 @@ template <Rescorer R, Segmenter S, Verifier V>
            result.objects.back().score < options.min_relative_score * result.objects.front().score)
         result.objects.pop_back();
     if (options.min_probability > 0)
-        std::erase_if(result.objects, [&](const Detection& object) {
+        drop_if(result.objects, [&](const Detection& object) {
             expect(!std::isnan(object.probability), "DetectOptions::min_probability",
                    "0 where votes alone judge, or the model knows no probabilities", options.min_probability);
             return object.probability < options.min_probability;

@@ -7,11 +7,11 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/scene.hpp"
@@ -53,7 +53,7 @@ namespace detail {
 
 /// Several words may vote through the same training feature: one patch with their weights together, which
 /// add up to 1 over all patches.
-[[nodiscard]] inline std::vector<Support> joined_patches(std::span<const Support> support,
+[[nodiscard]] inline std::vector<Support> joined_patches(const std::vector<Support>& support,
                                                          const ShapeModel& shapes) {
     std::vector<Support> patches(support.begin(), support.end());
     const auto key = [&](const Support& s) {
@@ -69,7 +69,7 @@ namespace detail {
         else
             patches[count++] = patch;
     }
-    patches.resize(count);
+    keep_first(patches, count);
     for (Support& patch : patches) patch.weight = static_cast<float>(patch.weight / total);
     return patches;
 }

@@ -22,12 +22,12 @@ struct Verified {
 };
 
 /// @brief Decides which of several hypotheses stay. To model it, write a small struct with its options as
-/// members and `std::vector<Verified> verify(std::span<const Detection>, const Scene&) const`. Options are
+/// members and `std::vector<Verified> verify(const std::vector<Detection>&, const Scene&) const`. Options are
 /// validated by `void check(const V&)` where there is one. With `bool needs_masks() const`, where this is
 /// false, hypotheses come without their segmentation, and only those that stay are cut out.
 template <class V>
 concept Verifier = std::copyable<V> &&
-    requires(const V& verifier, std::span<const Detection> hypotheses, const Scene& scene) {
+    requires(const V& verifier, const std::vector<Detection>& hypotheses, const Scene& scene) {
     { verifier.verify(hypotheses, scene) } -> std::same_as<std::vector<Verified>>;
 };
 
@@ -41,7 +41,7 @@ struct NonMaximumSuppression {
     [[nodiscard]] static constexpr bool needs_masks() { return false; }
 
     /// @brief The hypotheses that stay, strongest first, with their scores unchanged.
-    [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> hypotheses) const {
+    [[nodiscard]] std::vector<Verified> verify(const std::vector<Detection>& hypotheses) const {
         std::vector<Verified> order, kept;
         for (std::size_t i = 0; i < hypotheses.size(); ++i) order.push_back({i, hypotheses[i].score});
         detail::sort_by(order, [](const Verified& v) { return detail::falling(v.score); });
@@ -57,7 +57,7 @@ struct NonMaximumSuppression {
         }
         return kept;
     }
-    [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> hypotheses, const Scene&) const {
+    [[nodiscard]] std::vector<Verified> verify(const std::vector<Detection>& hypotheses, const Scene&) const {
         return verify(hypotheses);
     }
 };
@@ -95,7 +95,7 @@ struct Mdl {
     double k2_over_k0 = 0.95;  ///< how much the certainty of a pixel counts
 
     /// @brief Savings of each hypothesis and the cost of each pair.
-    [[nodiscard]] Savings savings(std::span<const Detection> hypotheses) const {
+    [[nodiscard]] Savings savings(const std::vector<Detection>& hypotheses) const {
         const std::size_t count = hypotheses.size();
         Savings result{std::vector<double>(count), std::vector<double>(count * count, 0)};
         for (std::size_t i = 0; i < count; ++i) {
@@ -117,7 +117,7 @@ struct Mdl {
 
     /// @brief Adds the hypothesis with the largest gain, weighed by its score, as long as one gains. A
     /// hypothesis that loses pixels to others keeps its score in the part it still saves.
-    [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> hypotheses) const {
+    [[nodiscard]] std::vector<Verified> verify(const std::vector<Detection>& hypotheses) const {
         const Savings all = savings(hypotheses);
         std::vector<double> gain = all.own;
         std::vector<bool> open(hypotheses.size(), true);
@@ -137,7 +137,7 @@ struct Mdl {
                 gain[i] -= all.cost[best * hypotheses.size() + i];
         }
     }
-    [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> hypotheses, const Scene&) const {
+    [[nodiscard]] std::vector<Verified> verify(const std::vector<Detection>& hypotheses, const Scene&) const {
         return verify(hypotheses);
     }
 

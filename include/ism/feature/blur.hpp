@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/core/aligned.hpp"
+#include "ism/core/callable.hpp"
 #include "ism/core/image.hpp"
 #include "ism/feature/workspace.hpp"
 
@@ -90,7 +90,7 @@ inline constexpr int blur_rows_at_once = 16;
 /// The blurred rows first … end − 1: row y is written to out_row(y); source_row(y) gives row y of the image,
 /// which has `height` rows. Columns go in strips so narrow that what a few rows need of them stays in the
 /// nearest cache.
-template <std::invocable<int> Source, std::invocable<int> Out>
+template <Callable<int> Source, Callable<int> Out>
 void blur_band(const Source& source_row, int width, int height, std::span<const float> kernel, int first,
                int end, float* scratch, const Out& out_row) {
     constexpr int strip = 128;

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/lists.hpp"
 #include "ism/feature/extractor.hpp"
 #include "ism/feature/keep_strongest.hpp"
 #include "ism/feature/orientation.hpp"
@@ -157,7 +158,7 @@ private:
         const float left = float(region.x - x0) * factor, top = float(region.y - y0) * factor;
         const float right = left + float(region.width) * factor, bottom = top + float(region.height) * factor;
         if (part)
-            std::erase_if(features, [&](const Feature& f) {
+            detail::drop_if(features, [&](const Feature& f) {
                 return f.x < left || f.y < top || f.x >= right || f.y >= bottom;
             });
         limit();

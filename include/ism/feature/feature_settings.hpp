@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -11,7 +10,6 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "ism/core/error.hpp"
@@ -21,8 +19,11 @@ namespace ism {
 
 /// @brief An option of a detector or a descriptor by name.
 struct Parameter {
+    enum class Kind : std::uint8_t { flag, whole, real };
     std::string name;
-    std::variant<bool, std::int64_t, double> value;
+    Kind kind = Kind::real;
+    std::int64_t whole = 0;  ///< of a flag 0 or 1
+    double real = 0;
     [[nodiscard]] bool operator==(const Parameter&) const = default;
 };
 
@@ -51,11 +52,11 @@ struct ListParameters {
     requires std::integral<T> || std::floating_point<T>
     void operator()(const char* name, const T& value) const {
         if constexpr (std::same_as<T, bool>)
-            list.push_back({name, value});
+            list.push_back({name, Parameter::Kind::flag, value});
         else if constexpr (std::integral<T>)
-            list.push_back({name, std::int64_t(value)});
+            list.push_back({name, Parameter::Kind::whole, std::int64_t(value)});
         else
-            list.push_back({name, double(value)});
+            list.push_back({name, Parameter::Kind::real, 0, double(value)});
     }
 };
 
@@ -67,30 +68,34 @@ struct SetParameters {
     template <class T>
     requires std::integral<T> || std::floating_point<T>
     void operator()(const char* name, T& value) {
-        const auto found =
-            std::find_if(list.begin(), list.end(), [&](const Parameter& p) { return p.name == name; });
-        expect(found != list.end(), lazy_text(part, ": parameter"), name, "none of this name");
+        const bool fits = set(value, next(name));
+        expect(fits, lazy_text(part, ": ", name), "a value of its kind", "another");
+    }
+
+    /// The parameter of this name, which is counted.
+    [[nodiscard]] const Parameter& next(const char* name) {
+        std::size_t i = 0;
+        while (i < list.size() && list[i].name != name) ++i;
+        expect(i < list.size(), lazy_text(part, ": parameter"), name, "none of this name");
         ++count;
-        expect(set(value, *found), lazy_text(part, ": ", name), "a value of its kind", "another");
+        return list[i];
     }
 
     /// Whether the parameter fits; a whole number does for a real one too.
     template <class T>
     [[nodiscard]] static bool set(T& value, const Parameter& given) {
-        const bool* const flag = std::get_if<bool>(&given.value);
-        const std::int64_t* const whole = std::get_if<std::int64_t>(&given.value);
-        const double* const real = std::get_if<double>(&given.value);
         if constexpr (std::same_as<T, bool>) {
-            if (flag != nullptr) value = *flag;
-            return flag != nullptr;
+            const bool fits = given.kind == Parameter::Kind::flag;
+            if (fits) value = given.whole != 0;
+            return fits;
         } else if constexpr (std::integral<T>) {
-            const bool fits = whole != nullptr && std::in_range<T>(*whole);
-            if (fits) value = static_cast<T>(*whole);
+            const bool fits = given.kind == Parameter::Kind::whole && std::in_range<T>(given.whole);
+            if (fits) value = static_cast<T>(given.whole);
             return fits;
         } else {
-            if (flag != nullptr) return false;
-            const double number = whole != nullptr ? double(*whole) : *real;
-            const bool fits = std::abs(number) <= double(std::numeric_limits<T>::max());
+            const double number = given.kind == Parameter::Kind::whole ? double(given.whole) : given.real;
+            const bool fits = given.kind != Parameter::Kind::flag &&
+                              std::abs(number) <= double(std::numeric_limits<T>::max());
             if (fits) value = static_cast<T>(number);
             return fits;
         }

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
+#include "ism/core/callable.hpp"
 #include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/scale_space.hpp"
@@ -26,9 +25,9 @@ struct FeaturesOfOctave {
 /// Calls body(i) for every feature, on many threads, while the scale space holds what is looked at around it:
 /// pixels of sampling() or nearest_level() of level_scale(feature), at most `reach` scales away. Octaves that
 /// are held in bands are made once more.
-template <class LevelScale, std::invocable<std::size_t> Body>
-requires std::invocable<LevelScale, const Feature&>
-void for_each_feature(ScaleSpace& space, std::span<const Feature> features, float reach,
+template <class LevelScale, Callable<std::size_t> Body>
+requires Callable<LevelScale, const Feature&>
+void for_each_feature(ScaleSpace& space, const std::vector<Feature>& features, float reach,
                       const LevelScale& level_scale, Workspace& workspace, const Body& body) {
     constexpr std::size_t features_per_task = 32;
     const auto each_of = [&](std::size_t count, const auto& index) {
@@ -53,7 +52,7 @@ void for_each_feature(ScaleSpace& space, std::span<const Feature> features, floa
         const float rows = std::ceil(std::min(1e6f, reach * features[i].scale / space.step(o)));
         part.rows_around = std::max(part.rows_around, int(rows) + 4);
     }
-    sort_ranked(order);
+    sort_ranked(order.data(), order.size());
     for (std::size_t o = 1; o < parts.size(); ++o)
         parts[o].next = parts[o - 1].end, parts[o].end += parts[o].next;
     const auto run = [&](FeaturesOfOctave& part, std::size_t end) {

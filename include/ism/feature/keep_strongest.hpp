@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/workspace.hpp"
@@ -30,7 +31,7 @@ inline void keep_strongest_evenly(std::vector<Feature>& features, std::size_t co
         order[i] = {detail::joined(std::uint32_t(cell), detail::falling(features[i].strength)),
                     std::uint32_t(i)};
     }
-    detail::sort_ranked(order);
+    detail::sort_ranked(order.data(), order.size());
     std::uint64_t last_cell = order.front().key >> 32;
     std::uint32_t turn = 0;
     for (detail::Ranked& next : order) {
@@ -39,13 +40,13 @@ inline void keep_strongest_evenly(std::vector<Feature>& features, std::size_t co
         last_cell = cell;
         next.key = detail::joined(turn++, std::uint32_t(next.key));
     }
-    detail::sort_ranked(order);
+    detail::sort_ranked(order.data(), order.size());
     std::fill(dropped.begin(), dropped.end(), 1u);
     for (const detail::Ranked& strong : order.first(count)) dropped[strong.index] = 0;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < features.size(); ++i)
         if (dropped[i] == 0) features[kept++] = features[i];
-    features.resize(kept);
+    detail::keep_first(features, kept);
 }
 
 }  // namespace ism

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "ism/core/callable.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/local_maxima.hpp"
 #include "ism/feature/range.hpp"
@@ -118,8 +118,7 @@ inline void check_scale_selection(float least_laplacian, float scale_tolerance, 
 /// of an octave. `respond(level, first, end, out, memory)` writes the response of rows of a level into the
 /// rows of `out`; `memory_for(level, rows)` gives the scratch floats it needs.
 template <class MemoryFor, class Respond>
-requires std::invocable<MemoryFor, int, int> &&
-    std::invocable<Respond, int, int, int, ImageView<float>, std::span<float>>
+requires Callable<MemoryFor, int, int> && Callable<Respond, int, int, int, ImageView<float>, std::span<float>>
 void search_scale_selected(const ScaleSpace& space, const ScaleSelection& selection, int octave, int first,
                            int end, Workspace& workspace, unsigned worker, std::vector<Feature>& found,
                            const MemoryFor& memory_for, const Respond& respond) {

@@ -8,11 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "ism/core/image.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/workspace.hpp"
@@ -64,14 +64,14 @@ struct SubPixel {
     const auto order = workspace.ranked(found.size());
     for (std::uint32_t i = 0; i < order.size(); ++i)
         order[i] = {joined(std::bit_cast<std::uint32_t>(found[i].scale) >> 23, rising(found[i].y)), i};
-    sort_ranked(order);
+    sort_ranked(order.data(), order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         all.push_back(found[order[i].index]);
         // few are of one octave and one row
         for (std::size_t k = i; k > 0 && order[k - 1].key == order[i].key; --k) {
             Feature &before = all[k - 1], &after = all[k];
-            if (std::tie(before.x, before.scale, before.strength) <=
-                std::tie(after.x, after.scale, after.strength))
+            const auto key = [](const Feature& f) { return joined(rising(f.x), rising(f.scale)); };
+            if (key(before) < key(after) || (key(before) == key(after) && before.strength <= after.strength))
                 break;
             std::swap(before, after);
         }
@@ -81,7 +81,7 @@ struct SubPixel {
     for (const Feature& f : all)
         if (kept == 0 || f.y != all[kept - 1].y || f.x != all[kept - 1].x || f.scale != all[kept - 1].scale)
             all[kept++] = f;
-    all.resize(kept);
+    keep_first(all, kept);
     return all;
 }
 
@@ -95,10 +95,10 @@ inline void drop_duplicates(std::vector<Feature>& features, float radius, float 
     const auto dropped = workspace.numbers(Scratch::dropped, count);
     std::fill(dropped.begin(), dropped.end(), 0u);
     for (std::uint32_t i = 0; i < count; ++i) order[i] = {rising(features[i].y), i};
-    sort_ranked(order);
+    sort_ranked(order.data(), order.size());
     for (std::uint32_t i = 0; i < count; ++i) by_y[i] = order[i].index, place[by_y[i]] = i;
     for (std::uint32_t i = 0; i < count; ++i) order[i] = {falling(features[i].strength), i};
-    sort_ranked(order);
+    sort_ranked(order.data(), order.size());
     for (const Ranked& strongest : order) {
         const std::uint32_t i = strongest.index;
         if (dropped[i] != 0) continue;
@@ -119,7 +119,7 @@ inline void drop_duplicates(std::vector<Feature>& features, float radius, float 
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i)
         if (dropped[i] == 0) features[kept++] = features[i];
-    features.resize(kept);
+    keep_first(features, kept);
 }
 
 }  // namespace ism::detail

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include "ism/core/order.hpp"
@@ -123,7 +122,7 @@ struct Directions {
         peaks[count] = {joined(falling(height), rising(angles[count])), std::uint32_t(count)};
         ++count;
     }
-    sort_ranked(std::span(peaks).first(count));
+    sort_ranked(peaks.data(), count);
     Directions directions;
     directions.count = std::min(count, std::size_t(options.max_peaks));
     for (std::size_t i = 0; i < directions.count; ++i) directions.angle[i] = angles[peaks[i].index];
@@ -137,7 +136,7 @@ struct Directions {
 /// without any gradient around it stays upright.
 /// @throws Error where an option is out of range.
 [[nodiscard]] inline std::vector<Feature> assign_orientations(ScaleSpace& space,
-                                                              std::span<const Feature> features,
+                                                              const std::vector<Feature>& features,
                                                               Workspace& workspace,
                                                               const OrientationOptions& options = {}) {
     check(options);

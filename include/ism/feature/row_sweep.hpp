@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "ism/core/callable.hpp"
 #include "ism/core/thread_pool.hpp"
 
 namespace ism::detail {
@@ -21,7 +21,7 @@ inline constexpr std::size_t most_stages = 40;
 /// by the sum of the reaches so far, and has all rows where end = height. The stages follow each other at
 /// short distance, so that rows are used while they are in the cache. Every thread of the pool gets a band of
 /// rows; what depends on two bands comes last.
-template <std::invocable<std::size_t, int, int, unsigned> Make>
+template <Callable<std::size_t, int, int, unsigned> Make>
 void sweep_rows(ThreadPool& pool, int begin, int end, int height, std::span<const int> reach,
                 const Make& make) {
     constexpr int rows_at_once = 16, rows_of_gap = 8;

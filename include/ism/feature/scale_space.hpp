@@ -236,7 +236,7 @@ private:
                                     workspace.rows(worker, detail::double_scratch(image_.width())).data(),
                                     o.doubled.view(0));
         };
-        detail::sweep_rows(workspace.pool(), o.swept, end, o.height, std::span(reaches).first(stages), make);
+        detail::sweep_rows(workspace.pool(), o.swept, end, o.height, {reaches.data(), stages}, make);
         o.swept = end;
     }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "ism/core/aligned.hpp"
+#include "ism/core/callable.hpp"
 #include "ism/core/image.hpp"
 #include "ism/core/order.hpp"
 #include "ism/core/thread_pool.hpp"
@@ -48,7 +48,7 @@ public:
     [[nodiscard]] std::size_t threads() const { return pool_->size(); }
 
     /// @brief Calls body(y) for y = 0 … rows − 1, on all threads.
-    template <std::invocable<int> Body>
+    template <Callable<int> Body>
     void each_row(int rows, const Body& body) {
         constexpr int rows_per_task = 32;
         pool_->for_each(std::size_t(rows + rows_per_task - 1) / rows_per_task,

@@ -14,6 +14,7 @@
 #include "ism/codebook/codebook.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/grouped.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 
@@ -40,13 +41,13 @@ struct BoxClassifier {
     [[nodiscard]] std::size_t classes() const { return bias.size(); }
 
     /// @brief Adds a class.
-    void push_back(std::span<const SparseEntry> class_weights, float class_bias) {
+    void push_back(const std::vector<SparseEntry>& class_weights, float class_bias) {
         weights.push_back(class_weights);
         bias.push_back(class_bias);
     }
 
     /// @brief The logarithm of the odds that a box with these words shows the class.
-    [[nodiscard]] double logit(std::size_t class_index, std::span<const SparseEntry> histogram) const {
+    [[nodiscard]] double logit(std::size_t class_index, const std::vector<SparseEntry>& histogram) const {
         double sum = bias[class_index];
         std::span<const SparseEntry> own = weights[class_index];
         for (const SparseEntry& bin : histogram) {
@@ -59,7 +60,8 @@ struct BoxClassifier {
         return sum;
     }
     /// @brief p(class | words in the box), 0 … 1; 1 without a classifier.
-    [[nodiscard]] double probability(std::size_t class_index, std::span<const SparseEntry> histogram) const {
+    [[nodiscard]] double probability(std::size_t class_index,
+                                     const std::vector<SparseEntry>& histogram) const {
         return empty() ? 1 : 1 / (1 + std::exp(-logit(class_index, histogram)));
     }
 };
@@ -69,12 +71,11 @@ class WordMap {
 public:
     WordMap() = default;
     /// @param words  of the model, all channels together
-    WordMap(std::span<const Feature> features, std::span<const Match> matches, std::size_t words)
+    WordMap(const std::vector<Feature>& features, const std::vector<Match>& matches, std::size_t words)
         : words_(words) {
-        std::vector<detail::Ranked> by_word;
-        for (const Match& match : matches)
-            by_word.push_back({match.word, static_cast<std::uint32_t>(by_word.size())});
-        detail::sort_ranked(by_word);
+        std::vector<detail::Ranked> by_word(matches.size());
+        for (std::uint32_t i = 0; i < by_word.size(); ++i) by_word[i] = {matches[i].word, i};
+        detail::sort_ranked(by_word.data(), by_word.size());
         for (const detail::Ranked& one : by_word) {
             const Match& match = matches[one.index];
             const Feature& f = features[match.feature];
@@ -102,8 +103,7 @@ public:
             total += 2 * double(place.weight);
         }
         std::vector<SparseEntry> bins = std::move(cells[0]);
-        for (std::size_t cell = 1; cell < cells.size(); ++cell)
-            bins.insert(bins.end(), cells[cell].begin(), cells[cell].end());
+        for (std::size_t cell = 1; cell < cells.size(); ++cell) detail::append(bins, cells[cell]);
         for (SparseEntry& bin : bins) bin.value = static_cast<float>(std::sqrt(bin.value / total));
         return bins;
     }

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "ism/feature/feature_settings.hpp"
@@ -52,13 +51,14 @@ void each_extract_parameter(Options& options, Visit&& visit) {
                                              const std::string& place) {
     Json object = Json::object();
     for (const Parameter& p : parameters) {
-        if (const double* real = std::get_if<double>(&p.value)) {
-            expect<FileError>(std::isfinite(*real), lazy_text(place, ": ", p.name), "a finite number", *real);
-            object[p.name] = shortest(*real);
-        } else if (const bool* flag = std::get_if<bool>(&p.value)) {
-            object[p.name] = *flag;
+        if (p.kind == Parameter::Kind::real) {
+            expect<FileError>(std::isfinite(p.real), lazy_text(place, ": ", p.name), "a finite number",
+                              p.real);
+            object[p.name] = shortest(p.real);
+        } else if (p.kind == Parameter::Kind::flag) {
+            object[p.name] = p.whole != 0;
         } else {
-            object[p.name] = std::get<std::int64_t>(p.value);
+            object[p.name] = p.whole;
         }
     }
     return object;
@@ -70,11 +70,11 @@ void each_extract_parameter(Options& options, Visit&& visit) {
     std::vector<Parameter> parameters;
     for (const auto& [name, value] : object.items()) {
         if (value.is_boolean())
-            parameters.push_back({name, value.get<bool>()});
+            parameters.push_back({name, Parameter::Kind::flag, value.get<bool>()});
         else if (value.is_number_integer())
-            parameters.push_back({name, to_integer(value, name, place)});
+            parameters.push_back({name, Parameter::Kind::whole, to_integer(value, name, place)});
         else
-            parameters.push_back({name, to_number(value, name, place)});
+            parameters.push_back({name, Parameter::Kind::real, 0, to_number(value, name, place)});
     }
     return parameters;
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -84,7 +83,7 @@ namespace ism {
 
 /// @brief Indices of the features on a mask, in order.
 [[nodiscard]] inline std::vector<std::size_t> features_on(const Mask& mask,
-                                                          std::span<const Feature> features) {
+                                                          const std::vector<Feature>& features) {
     std::vector<std::size_t> on;
     for (std::size_t i = 0; i < features.size(); ++i) {
         const int x = static_cast<int>(std::lround(features[i].x)),
@@ -96,7 +95,8 @@ namespace ism {
 
 /// @brief The `most` strongest of some features, in order.
 [[nodiscard]] inline std::vector<std::size_t> strongest(std::vector<std::size_t> chosen,
-                                                        std::span<const Feature> features, std::size_t most) {
+                                                        const std::vector<Feature>& features,
+                                                        std::size_t most) {
     if (chosen.size() <= most) return chosen;
     detail::sort_by(chosen, [&](std::size_t i) { return detail::falling(features[i].strength); });
     chosen.resize(most);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,7 +40,7 @@ namespace detail {
 /// Finds the features of one training image after another.
 class TrainingExtractor {
 public:
-    explicit TrainingExtractor(std::span<const AnyExtractor> extractors) {
+    explicit TrainingExtractor(const std::vector<AnyExtractor>& extractors) {
         for (const AnyExtractor& extractor : extractors) channels_.push_back(extractor.start(pool_));
     }
 
@@ -115,7 +114,7 @@ private:
                 all.samples[c].occurrences.push_back(o);
                 all.samples[c].descriptors.push_back(part.samples[c].descriptors.row(i));
             }
-        std::move(part.objects.begin(), part.objects.end(), std::back_inserter(all.objects));
+        for (TrainingObject& object : part.objects) all.objects.push_back(std::move(object));
         for (TrainingView& view : part.views) {
             view.first_object += objects, view.end_object += objects;
             all.views.push_back(std::move(view));

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "ism/core/error.hpp"
@@ -30,8 +29,9 @@ struct DesignMatrix {
 
 /// The boxes that show the class or were predicted to, whose bins are the columns, and an evenly spaced
 /// subset of those that show another class.
-[[nodiscard]] inline DesignMatrix design_matrix(std::span<const TrainingBox* const> boxes, std::size_t words,
-                                                std::size_t class_index, std::size_t max_others) {
+[[nodiscard]] inline DesignMatrix design_matrix(const std::vector<const TrainingBox*>& boxes,
+                                                std::size_t words, std::size_t class_index,
+                                                std::size_t max_others) {
     std::vector<const TrainingBox*> used, others;
     for (const TrainingBox* box : boxes)
         if (box->true_class == class_index || box->predicted_class == class_index)
@@ -98,8 +98,8 @@ struct DesignMatrix {
 /// does not grow with the number of classes.
 /// @param words  of the model
 /// @throws Error for boxes with bins of other words.
-[[nodiscard]] inline BoxClassifier fit_box_classifier(std::span<const TrainingBox> boxes, std::size_t words,
-                                                      std::size_t classes,
+[[nodiscard]] inline BoxClassifier fit_box_classifier(const std::vector<TrainingBox>& boxes,
+                                                      std::size_t words, std::size_t classes,
                                                       const BoxClassifierOptions& options = {},
                                                       unsigned threads = 0) {
     std::vector<TrainingBox> far;  // copies of those that count as background

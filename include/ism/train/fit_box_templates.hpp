@@ -71,7 +71,7 @@ namespace detail {
 }
 
 /// Of the objects of a class, the IoU with that which overlaps most.
-[[nodiscard]] inline double best_iou(const Box& box, std::span<const ObjectLabel> labels,
+[[nodiscard]] inline double best_iou(const Box& box, const std::vector<ObjectLabel>& labels,
                                      std::uint32_t class_index) {
     double best = 0;
     for (const ObjectLabel& label : labels)

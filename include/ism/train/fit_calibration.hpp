@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "ism/model/calibration.hpp"
@@ -27,7 +26,7 @@ struct ScoredExample {
 /// @brief Fits a logistic curve over the logarithm of scores (Platt 1999, with his targets of
 /// (N₊ + 1)/(N₊ + 2) and 1/(N₋ + 2), by Newton's method). Examples without score, and lists without both
 /// kinds, tell nothing of the slope: then the curve is flat at the share of positives.
-[[nodiscard]] inline Calibration::Curve fit_curve(std::span<const ScoredExample> examples) {
+[[nodiscard]] inline Calibration::Curve fit_curve(const std::vector<ScoredExample>& examples) {
     double positives = 0, negatives = 0;
     for (const ScoredExample& e : examples) (e.positive ? positives : negatives) += e.score > 0;
     const double high = (positives + 1) / (positives + 2), low = 1 / (negatives + 2);
@@ -68,10 +67,10 @@ struct ScoredExample {
 }
 
 /// @brief A curve for each class; one with few examples of either kind has that of all.
-[[nodiscard]] inline Calibration calibration_of(std::span<const std::vector<ScoredExample>> of_class,
-                                                std::span<const ScoredExample> all) {
+[[nodiscard]] inline Calibration calibration_of(const std::vector<std::vector<ScoredExample>>& of_class,
+                                                const std::vector<ScoredExample>& all) {
     constexpr std::size_t least = 8;  // of each kind for a curve of its own
-    const auto enough = [&](std::span<const ScoredExample> examples) {
+    const auto enough = [&](const std::vector<ScoredExample>& examples) {
         std::size_t positives = 0;
         for (const ScoredExample& e : examples) positives += e.positive;
         return positives >= least && examples.size() - positives >= least;
@@ -102,8 +101,8 @@ struct ScoredExample {
 /// there are few, the halves take turns. A class with few examples has the curve of all classes.
 /// @param boxes         of training_boxes()
 /// @param half_of_view  see halves_of_views()
-[[nodiscard]] inline Calibration fit_calibration(std::span<const TrainingBox> boxes,
-                                                 std::span<const std::uint8_t> half_of_view,
+[[nodiscard]] inline Calibration fit_calibration(const std::vector<TrainingBox>& boxes,
+                                                 const std::vector<std::uint8_t>& half_of_view,
                                                  std::size_t words, std::size_t classes,
                                                  const TrainOptions& options) {
     constexpr std::size_t many = 1000;  // hypotheses of one half are enough

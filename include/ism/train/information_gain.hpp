@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "ism/core/error.hpp"
@@ -15,7 +14,7 @@ namespace ism {
 /// G(w) = 1/n Σ_c P(w, c) log(P(w, c) / (P(w) P(c))), natural logarithm, where 0 log 0 = 0.
 /// @param counts  words × classes, row after row: how often word and class were seen together, ≥ 0
 /// @throws Error where there is no class, the size does not fit, a count is negative or not finite.
-[[nodiscard]] inline std::vector<double> information_gain(std::span<const double> counts,
+[[nodiscard]] inline std::vector<double> information_gain(const std::vector<double>& counts,
                                                           std::size_t classes) {
     expect(classes > 0 && counts.size() % classes == 0, "information gain: number of counts",
            lazy_text("a multiple of ", classes, " classes"), counts.size());

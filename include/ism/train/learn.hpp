@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/codebook/match.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/model/model.hpp"
 #include "ism/train/fit_box_classifier.hpp"
 #include "ism/train/fit_calibration.hpp"
@@ -50,7 +50,7 @@ namespace detail {
             match.word += first_word;
             matches.push_back(match);
         }
-        seen.insert(seen.end(), samples.occurrences.begin(), samples.occurrences.end());
+        append(seen, samples.occurrences);
     }
     model.shapes.occurrences = group_by_word(seen, matches, model.words());
     weigh_occurrences(model.shapes);

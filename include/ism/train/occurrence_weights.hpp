@@ -17,8 +17,8 @@ namespace ism {
 
 /// @brief The occurrences of each word: every match of a training feature is one, in the order of features.
 /// @param features  one occurrence a feature; Match::feature points into them
-[[nodiscard]] inline Grouped<Occurrence> group_by_word(std::span<const Occurrence> features,
-                                                       std::span<const Match> matches, std::size_t words) {
+[[nodiscard]] inline Grouped<Occurrence> group_by_word(const std::vector<Occurrence>& features,
+                                                       const std::vector<Match>& matches, std::size_t words) {
     std::vector<std::uint32_t> offsets(words + 1, 0);
     for (const Match& match : matches) ++offsets[match.word + 1];
     for (std::size_t w = 0; w < words; ++w) offsets[w + 1] += offsets[w];

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -37,7 +36,7 @@ namespace ism {
 }
 
 /// @brief The words that are worth at least `least`, in rising order.
-[[nodiscard]] inline std::vector<std::uint32_t> words_worth(std::span<const double> worth, double least) {
+[[nodiscard]] inline std::vector<std::uint32_t> words_worth(const std::vector<double>& worth, double least) {
     std::vector<std::uint32_t> chosen;
     for (std::uint32_t w = 0; w < worth.size(); ++w)
         if (worth[w] >= least) chosen.push_back(w);
@@ -45,7 +44,8 @@ namespace ism {
 }
 
 /// @brief The `count` words worth most (of equal ones the first), or all, in rising order.
-[[nodiscard]] inline std::vector<std::uint32_t> best_words(std::span<const double> worth, std::size_t count) {
+[[nodiscard]] inline std::vector<std::uint32_t> best_words(const std::vector<double>& worth,
+                                                           std::size_t count) {
     std::vector<std::uint32_t> chosen(worth.size());
     std::iota(chosen.begin(), chosen.end(), 0u);
     if (count >= worth.size()) return chosen;
@@ -59,7 +59,7 @@ namespace ism {
 /// words is learnt.
 /// @param chosen  words in rising order
 /// @throws Error where a channel has none, or the model already has a classifier of boxes.
-[[nodiscard]] inline Model keep_words(const Model& model, std::span<const std::uint32_t> chosen) {
+[[nodiscard]] inline Model keep_words(const Model& model, const std::vector<std::uint32_t>& chosen) {
     expect(model.box_classifier.empty() && model.calibration.empty(), "words to keep",
            "a model without classifier and calibration", "one with them, which have to be learnt after");
     Model kept{.channels = {},

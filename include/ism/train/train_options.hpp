@@ -4,11 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/function.hpp"
 #include "ism/core/progress.hpp"
 
 namespace ism {
@@ -43,7 +43,7 @@ struct CodebookOptions {
 
 /// @brief What each word of a model is worth: one number a word, 0 or more; larger is better. See
 /// word_occurrences(), word_information_gain() and vote_agreement().
-using WordWorth = std::function<std::vector<double>(const ShapeModel& shapes, unsigned threads)>;
+using WordWorth = Function<std::vector<double>(const ShapeModel& shapes, unsigned threads)>;
 
 /// @brief Which words stay.
 struct WordSelection {

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/core/geometry.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/recognition.hpp"
@@ -39,14 +38,14 @@ namespace detail {
 
 /// The features of a training image with their matches to the words of a model.
 [[nodiscard]] inline Scene training_scene(const TrainingView& view, const Model& model,
-                                          std::span<const WordIndex> words, const Frame& blank,
+                                          const std::vector<WordIndex>& words, const Frame& blank,
                                           ThreadPool& pool) {
     Scene scene{.frame = blank, .model = model, .pool = pool};
     for (std::size_t c = 0; c < words.size(); ++c) {
         const auto first = static_cast<std::uint32_t>(scene.features.size());
         const auto first_word = static_cast<std::uint32_t>(model.first_word(c));
         const auto& [features, descriptors] = view.channels[c];
-        scene.features.insert(scene.features.end(), features.begin(), features.end());
+        append(scene.features, features);
         for (Match match : match(words[c], descriptors, pool)) {
             match.feature += first, match.word += first_word;
             scene.matches.push_back(match);
@@ -73,7 +72,8 @@ namespace detail {
 
 /// A hypothesis, with the object that it overlaps most.
 [[nodiscard]] inline TrainingBox hypothesis_box(std::uint32_t class_index, const Box& box, double score,
-                                                std::span<const ObjectLabel> labels, const WordMap& words) {
+                                                const std::vector<ObjectLabel>& labels,
+                                                const WordMap& words) {
     TrainingBox result{
         .histogram = words.histogram(box), .predicted_class = class_index, .overlap = 0, .score = score};
     for (const ObjectLabel& label : labels)
@@ -123,7 +123,8 @@ namespace detail {
         counter.step();
     });
     std::vector<TrainingBox> boxes;
-    for (auto& part : parts) std::move(part.begin(), part.end(), std::back_inserter(boxes));
+    for (auto& part : parts)
+        for (TrainingBox& box : part) boxes.push_back(std::move(box));
     return boxes;
 }
 

@@ -81,7 +81,7 @@ namespace detail {
 }
 
 /// Numbers the features through all channels.
-inline void number_features(std::span<TrainingSamples> samples) {
+inline void number_features(std::vector<TrainingSamples>& samples) {
     std::uint32_t feature = 0;
     for (TrainingSamples& channel : samples)
         for (Occurrence& o : channel.occurrences) o.feature = feature++;

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "ism/core/function.hpp"
 #include "ism/train/training_image.hpp"
 
 namespace ism {
@@ -15,8 +15,8 @@ namespace ism {
 /// asked for once. Both are called from several threads at once.
 struct TrainingSet {
     std::size_t size = 0;  ///< number of images
-    std::function<std::vector<ObjectLabel>(std::size_t i)> labels;
-    std::function<TrainingImage(std::size_t i)> image;
+    Function<std::vector<ObjectLabel>(std::size_t i)> labels;
+    Function<TrainingImage(std::size_t i)> image;
 };
 
 /// @brief Images in memory as a training set.

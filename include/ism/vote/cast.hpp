@@ -75,9 +75,9 @@ template <std::predicate<const Occurrence&> LeftOut>
 /// @return the votes by label, then feature, word and occurrence
 template <VoteSpaceType Space>
 [[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(
-    std::span<const Feature> features, std::span<const Match> matches, const ShapeModel& shapes,
+    const std::vector<Feature>& features, const std::vector<Match>& matches, const ShapeModel& shapes,
     const Camera* camera = nullptr, const VoteLimits& limits = {},
-    std::span<const std::optional<LocalFrame>> frames = {}) {
+    const std::vector<std::optional<LocalFrame>>& frames = {}) {
     using V = Vote<Space::dimension>;
     std::vector<V> votes;
     const auto left_out = [&](const Occurrence& o) {

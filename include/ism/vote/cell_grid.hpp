@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 
 #include "ism/config.hpp"
+#include "ism/core/callable.hpp"
 
 namespace ism {
 
@@ -44,7 +44,7 @@ public:
 
     /// @brief Calls `visit(first, last)` for runs of cells first … last − 1 that hold all of the window
     /// Σ ((v − at) / window)² ≤ reach²; no cell is in two runs.
-    template <std::invocable<std::size_t, std::size_t> Visit>
+    template <Callable<std::size_t, std::size_t> Visit>
     void each_run(const Position& at, const Position& window, double reach, Visit&& visit) const {
         // A little more than the window: cells and distances are rounded.
         const double sq_reach = 1.00001 * reach * reach, far = std::sqrt(sq_reach);

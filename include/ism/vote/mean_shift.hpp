@@ -61,7 +61,7 @@ double shift_once(const Search& search, Mode<Dimension>& mode) {
 /// @throws Error for an option out of range.
 template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
 [[nodiscard]] std::vector<Mode<Dimension>> find_modes(const Search& search,
-                                                      std::span<const Mode<Dimension>> seeds,
+                                                      const std::vector<Mode<Dimension>>& seeds,
                                                       const MeanShiftOptions& options = {}) {
     check(options);
     std::vector<Mode<Dimension>> modes, apart;

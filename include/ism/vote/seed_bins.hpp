@@ -26,11 +26,13 @@ public:
     /// @brief The means of the heaviest bins, heaviest first; their score is the bin's weight.
     /// @param votes  of one label, such as check() takes
     /// @param min_relative_weight  lighter bins than this part of the heaviest are left out
-    [[nodiscard]] std::span<const Mode<Dimension>> find(std::span<const Vote<Dimension>> votes,
-                                                        const Bandwidth<Dimension>& bandwidth,
-                                                        std::size_t max_count, double min_relative_weight) {
+    [[nodiscard]] const std::vector<Mode<Dimension>>& find(std::span<const Vote<Dimension>> votes,
+                                                           const Bandwidth<Dimension>& bandwidth,
+                                                           std::size_t max_count,
+                                                           double min_relative_weight) {
         bins_.clear(), keys_.clear();
-        if (votes.empty()) return {};
+        seeds_.clear();
+        if (votes.empty()) return seeds_;
         make_windows(votes, bandwidth);
         std::size_t slots = 16;
         while (slots < 2 * votes.size()) slots *= 2;
@@ -89,8 +91,8 @@ private:
         return bin_at_[slot];
     }
 
-    [[nodiscard]] std::span<const Mode<Dimension>> heaviest(std::size_t max_count,
-                                                            double min_relative_weight) {
+    [[nodiscard]] const std::vector<Mode<Dimension>>& heaviest(std::size_t max_count,
+                                                               double min_relative_weight) {
         order_.resize(bins_.size());
         for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
         const std::size_t count = std::min(max_count, order_.size());
@@ -99,7 +101,6 @@ private:
                               return bins_[a].score > bins_[b].score ||
                                      (bins_[a].score == bins_[b].score && a < b);
                           });
-        seeds_.clear();
         for (std::size_t i = 0; i < count; ++i) {
             Mode<Dimension> bin = bins_[order_[i]];
             if (!(bin.score > 0) || bin.score < min_relative_weight * bins_[order_[0]].score) break;

@@ -19,11 +19,11 @@ namespace ism {
 /// @brief Votes in the order of cast_votes, cut where the label changes.
 template <std::size_t Dimension>
 [[nodiscard]] std::vector<std::span<const Vote<Dimension>>> split_by_label(
-    std::span<const Vote<Dimension>> votes) {
+    const std::vector<Vote<Dimension>>& votes) {
     std::vector<std::span<const Vote<Dimension>>> parts;
     for (std::size_t first = 0, i = 1; i <= votes.size(); ++i)
         if (i == votes.size() || votes[i].label != votes[first].label) {
-            parts.push_back(votes.subspan(first, i - first));
+            parts.emplace_back(votes.data() + first, i - first);
             first = i;
         }
     return parts;
@@ -65,7 +65,7 @@ template <std::size_t Dimension>
 /// @throws Error as find_modes() does, and for a least relative score outside 0 to 1
 template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search = VoteGrid<Dimension>>
 [[nodiscard]] std::vector<SupportedMode<Dimension>> strongest_modes(
-    std::span<const std::span<const Vote<Dimension>>> labels, const Bandwidth<Dimension>& bandwidth,
+    const std::vector<std::span<const Vote<Dimension>>>& labels, const Bandwidth<Dimension>& bandwidth,
     const MeanShiftOptions& options, std::size_t max_count, double min_relative_score, ThreadPool& pool) {
     check(options);
     expect(min_relative_score >= 0 && min_relative_score <= 1, "modes: least relative score", "0 to 1",
@@ -105,7 +105,7 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search = VoteGr
 /// @brief The same on `threads` threads of its own; 0 = all hardware threads.
 template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search = VoteGrid<Dimension>>
 [[nodiscard]] std::vector<SupportedMode<Dimension>> strongest_modes(
-    std::span<const std::span<const Vote<Dimension>>> labels, const Bandwidth<Dimension>& bandwidth,
+    const std::vector<std::span<const Vote<Dimension>>>& labels, const Bandwidth<Dimension>& bandwidth,
     const MeanShiftOptions& options, std::size_t max_count, double min_relative_score, unsigned threads) {
     ThreadPool pool(
         unsigned(std::min<std::size_t>(thread_count(threads), std::max<std::size_t>(1, labels.size()))));

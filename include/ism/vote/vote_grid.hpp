@@ -6,7 +6,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "ism/core/aligned.hpp"
+#include "ism/core/callable.hpp"
 #include "ism/vote/bandwidth.hpp"
 #include "ism/vote/cell_grid.hpp"
 #include "ism/vote/vote.hpp"
@@ -69,7 +69,7 @@ public:
 
     /// @brief Calls `visit(first, last)` for runs of numbers in the order of the grid that hold all votes of
     /// the window around `at`, and others.
-    template <std::invocable<std::size_t, std::size_t> Visit>
+    template <Callable<std::size_t, std::size_t> Visit>
     void each_run(const std::array<double, Dimension>& at, const std::array<double, Dimension>& window,
                   double reach, Visit&& visit) const {
         cells_.each_run(first_axes(at), first_axes(window, 1), reach, [&](std::size_t from, std::size_t to) {
@@ -78,7 +78,7 @@ public:
     }
 
     /// @brief Calls `visit(index, u²)` for each vote with u² ≤ reach² in the window around `at`.
-    template <std::invocable<std::uint32_t, double> Visit>
+    template <Callable<std::uint32_t, double> Visit>
     void each_within(const std::array<double, Dimension>& at, const std::array<double, Dimension>& window,
                      double reach, Visit&& visit) const {
         each_run(at, window, reach, [&](std::size_t first, std::size_t last) {

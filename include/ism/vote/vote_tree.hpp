@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "ism/core/callable.hpp"
 #include "ism/core/radius_search.hpp"
 #include "ism/vote/bandwidth.hpp"
 #include "ism/vote/vote.hpp"
@@ -36,7 +36,7 @@ public:
 
     /// @brief Calls `visit(index, u²)`, by rising index, for each vote with u² ≤ reach² in the window around
     /// `at`.
-    template <std::invocable<std::uint32_t, double> Visit>
+    template <Callable<std::uint32_t, double> Visit>
     void each_within(const std::array<double, Dimension>& at, const std::array<double, Dimension>& window,
                      double reach, Visit&& visit) const {
         // the ball of the tree that holds the window, whose axes may have grown by different factors
