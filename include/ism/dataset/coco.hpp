@@ -120,6 +120,9 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
         if (const Json* crowd = optional_member(record, "iscrowd", place))
             annotation.crowd =
                 crowd->is_boolean() ? crowd->get<bool>() : to_integer(*crowd, "iscrowd", place) != 0;
+        if (const Json* instance = optional_member(record, "instance", place))
+            annotation.instance = instance->is_number() ? join_text(to_integer(*instance, "instance", place))
+                                                        : to_text(*instance, "instance", place);
         read_outline(record, image, place, annotation);
         image.objects.push_back(std::move(annotation));
     }
@@ -129,9 +132,9 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
 }  // namespace detail
 
 /// @brief Reads a data set in COCO's JSON: images, categories, annotations with bbox, segmentation (run
-/// lengths as text or array, or polygons), and iscrowd. Per image also depth_file_name, depth_scale (metres
-/// per unit) and camera {fx, fy, cx, cy}. File names count from the JSON's folder. A missing bbox is taken
-/// from the segmentation. Images are not opened yet.
+/// lengths as text or array, or polygons), iscrowd, and instance (a text or number that names the thing). Per
+/// image also depth_file_name, depth_scale (metres per unit) and camera {fx, fy, cx, cy}. File names count
+/// from the JSON's folder. A missing bbox is taken from the segmentation. Images are not opened yet.
 /// @throws FileError, naming the file, the image and the annotation, where the file cannot be read, is no
 /// JSON (with line and column), lacks a key, repeats an id, names an unknown image or category, or a box
 /// (see check_labelled_box()), mask size, depth scale or camera makes no sense.

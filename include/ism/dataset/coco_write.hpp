@@ -44,6 +44,7 @@ namespace detail {
         record["segmentation"] = rle_to_json(*packed);
     else if (const auto* polygons = std::get_if<std::vector<Polygon>>(&annotation.segmentation))
         record["segmentation"] = polygons_to_json(*polygons);
+    if (!annotation.instance.empty()) record["instance"] = annotation.instance;
     return record;
 }
 

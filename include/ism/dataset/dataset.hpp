@@ -34,6 +34,8 @@ struct DatasetAnnotation {
     Box box;                        ///< pixels; may reach outside the image
     bool crowd = false;             ///< a group: ignored in training and evaluation
     MaskSource segmentation = {};
+    std::string instance =
+        {};  ///< which thing of the class it is, where that is known: the same in each image
     [[nodiscard]] bool operator==(const DatasetAnnotation&) const = default;
 };
 

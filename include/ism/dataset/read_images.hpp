@@ -48,8 +48,10 @@ namespace ism {
     TrainingImage training{.frame = read_frame(image), .name = image.file.string()};
     for (const DatasetAnnotation& object : image.objects)
         if (!object.crowd)
-            training.objects.push_back(
-                {.class_index = object.class_index, .box = object.box, .mask = read_mask(image, object)});
+            training.objects.push_back({.class_index = object.class_index,
+                                        .box = object.box,
+                                        .mask = read_mask(image, object),
+                                        .instance = object.instance});
     return training;
 }
 

@@ -23,10 +23,10 @@ struct SegmentOptions {
     /// things whole. The first reaches most objects, the others add some.
     std::vector<SegmentLevel> levels = {{12, 20, true}, {16, 20, true}, {12, 10, true},
                                         {12, 5, true},  {12, 40, true}, {12, 25, false}};
-    int min_border_px = 3;       ///< pixels side by side that two supervoxels need to be neighbours
-    double min_share = 0.001;    ///< smaller parts of the image are dropped: 307 px of 640 × 480
-    double max_share = 1.0 / 3;  ///< and larger ones
-    double max_iou = 0.85;       ///< with a segment before it; what is more alike is dropped
+    int min_border_px = 3;     ///< pixels side by side that two supervoxels need to be neighbours
+    double min_share = 0.001;  ///< smaller parts of the image are dropped: 307 px of 640 × 480
+    double max_share = 0.95;   ///< and larger ones
+    double max_iou = 0.85;     ///< with a segment before it; what is more alike is dropped
 };
 
 /// @brief Validates `options`.

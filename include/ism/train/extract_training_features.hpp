@@ -67,8 +67,10 @@ private:
     const Frame& frame = image.frame;
     if (frame.depth_m.empty() || !frame.camera) return {};
     TrainingDepth depth{.depth_m = frame.depth_m, .camera = *frame.camera};
-    for (const LabelledObject& object : image.objects)
+    for (const LabelledObject& object : image.objects) {
         depth.masks.push_back(region_of(object_mask(object, frame.gray.width(), frame.gray.height())));
+        depth.instances.push_back(object.instance);
+    }
     return depth;
 }
 

@@ -23,6 +23,7 @@
 #include "ism/detect/metric_proposals.hpp"
 #include "ism/model/mask_judge.hpp"
 #include "ism/model/model.hpp"
+#include "ism/train/depth_views.hpp"
 #include "ism/train/training_features.hpp"
 
 namespace ism {
@@ -162,52 +163,60 @@ inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
 
 /// @brief Adds to a model of learn_metric() the judge of masks, from the same training features, whose pixels
 /// and depth were kept: regions of each training image are compared with those of all others and with votes
-/// that its own features have no part in.
+/// that its own features have no part in, nor those of images of the same things (depth_views()).
 /// @throws Error where no image has pixels, depth and camera.
 [[nodiscard]] inline Model learn_mask_judge(Model model, const TrainingFeatures& features,
                                             const MaskJudgeOptions& options = {}, unsigned threads = 0,
                                             const Progress& progress = {}) {
-    std::vector<const TrainingView*> views;
-    std::vector<WordRange> own_words;
-    std::uint32_t word = 0;
-    for (const TrainingView& view : features.views)
-        if (view.depth && !view.mirrored) {
-            expect(!view.pixels.empty(), "judge of masks: colours of training images", "kept", "none");
-            views.push_back(&view);
-            const auto end = word + static_cast<std::uint32_t>(view.channels[0].features.size());
-            own_words.push_back({word, end});
-            word = end;
-        }
-    expect(!views.empty(), "judge of masks: training images with depth and camera", "1 or more", 0);
+    const DepthViews known = depth_views(features);
+    const std::vector<const TrainingView*>& views = known.views;
+    std::vector<std::uint32_t> first_word{0};  // of each view
+    for (const TrainingView* view : views) {
+        expect(!view->pixels.empty(), "judge of masks: colours of training images", "kept", "none");
+        first_word.push_back(first_word.back() +
+                             static_cast<std::uint32_t>(view->channels[0].features.size()));
+    }
     MaskJudge judge;
     const WordIndex words(model.channels[0].codebook);
     std::vector<std::vector<detail::JudgedRegion>> regions(views.size());
     ProgressCounter counter(progress, "judging regions of training images", views.size());
-    parallel_for(views.size(), threads, [&](std::size_t i) {
-        regions[i] =
-            detail::judged_regions(*views[i], model, words, own_words[i], judge.shape_bin_m, options);
+    parallel_for(views.size(), threads, [&](std::size_t v) {
+        const WordRange own_words{first_word[known.group_first[v]], first_word[known.group_end[v]]};
+        regions[v] = detail::judged_regions(*views[v], model, words, own_words, judge.shape_bin_m, options);
         counter.step();
     });
-    std::vector<std::size_t> first{0};
+    std::vector<std::size_t> first{0};  // example of each view
     for (const auto& of_view : regions) {
         for (const detail::JudgedRegion& region : of_view) judge.examples.push_back(region.example);
         first.push_back(judge.examples.size());
     }
     const std::size_t classes = features.class_names.size();
-    std::vector<MaskCues> cues(judge.examples.size() * classes);
-    std::vector<std::uint8_t> right(cues.size());
+    std::vector<std::vector<MaskCues>> cues(views.size());
+    std::vector<std::vector<std::uint8_t>> right(views.size());
     parallel_for(views.size(), threads, [&](std::size_t v) {
-        for (std::size_t i = first[v]; i < first[v + 1]; ++i) {
-            const detail::JudgedRegion& region = regions[v][i - first[v]];
+        const std::size_t without_first = first[known.group_first[v]],
+                          without_end = first[known.group_end[v]];
+        std::vector<bool> seen_elsewhere(classes + 1, false);
+        for (std::size_t e = 0; e < judge.examples.size(); ++e)
+            if (e < without_first || e >= without_end)
+                seen_elsewhere[std::min<std::size_t>(judge.examples[e].class_index, classes)] = true;
+        for (const detail::JudgedRegion& region : regions[v]) {
             const auto looks =
-                look_distances(region.example.look, judge.examples, classes, first[v], first[v + 1]);
+                look_distances(region.example.look, judge.examples, classes, without_first, without_end);
             for (std::size_t c = 0; c < classes; ++c) {
-                cues[i * classes + c] = mask_cues(region.votes, looks, region.outline, c);
-                right[i * classes + c] = region.example.class_index == c;
+                if (!seen_elsewhere[c]) continue;  // no one could know it
+                cues[v].push_back(mask_cues(region.votes, looks, region.outline, c));
+                right[v].push_back(region.example.class_index == c);
             }
         }
     });
-    detail::fit_mask_weights(judge, cues, right, options.cost);
+    std::vector<MaskCues> all_cues;
+    std::vector<std::uint8_t> all_right;
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        all_cues.insert(all_cues.end(), cues[v].begin(), cues[v].end());
+        all_right.insert(all_right.end(), right[v].begin(), right[v].end());
+    }
+    detail::fit_mask_weights(judge, all_cues, all_right, options.cost);
     model.mask_judge = std::move(judge);
     return model;
 }

@@ -11,6 +11,7 @@
 #include "ism/core/error.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/model/model.hpp"
+#include "ism/train/depth_views.hpp"
 #include "ism/train/training_features.hpp"
 #include "ism/train/training_surface.hpp"
 #include "ism/vote/placement.hpp"
@@ -70,10 +71,7 @@ struct MetricWords {
 [[nodiscard]] inline Model learn_metric(const TrainingFeatures& features, const MetricOptions& options = {},
                                         unsigned threads = 0) {
     expect(features.settings.size() == 1, "metric model: channels", 1, features.settings.size());
-    std::vector<const TrainingView*> views;
-    for (const TrainingView& view : features.views)
-        if (view.depth && !view.mirrored) views.push_back(&view);
-    expect(!views.empty(), "metric model: training images with depth and camera", "1 or more", 0);
+    const std::vector<const TrainingView*> views = depth_views(features).views;
     std::vector<detail::MetricWords> parts(views.size());
     parallel_for(views.size(), threads,
                  [&](std::size_t i) { parts[i] = detail::metric_words(*views[i], features); });

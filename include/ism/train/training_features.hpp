@@ -32,7 +32,8 @@ struct TrainingSamples {
 struct TrainingDepth {
     DepthMap depth_m = {};
     Camera camera = {};
-    std::vector<RegionMask> masks = {};  ///< of the labelled objects
+    std::vector<RegionMask> masks = {};       ///< of the labelled objects
+    std::vector<std::string> instances = {};  ///< theirs; empty texts where not known
 };
 
 /// @brief All features of a training image or of its mirror image, beside the objects too.

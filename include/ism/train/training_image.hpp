@@ -26,6 +26,7 @@ struct LabelledObject {
     std::uint32_t class_index = 0;  ///< into the class names given to train()
     Box box;                        ///< pixels
     Mask mask = {};                 ///< of the image's size; empty: the box is the mask
+    std::string instance = {};      ///< which thing of the class it is; empty = not known
 
     [[nodiscard]] ObjectLabel label() const { return {class_index, box}; }
 };
