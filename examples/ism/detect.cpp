@@ -131,6 +131,8 @@ void run_detect(const DetectCommand& command) {
             if (needs_depth(command.search.space) && image.depth_file.empty())
                 throw ism::FileError(ism::file_text(image.file) +
                                      ": expected a depth image beside it, got none");
+            if (command.search.space == metric_space && !image.camera)
+                throw ism::FileError(ism::file_text(image.file) + ": expected its camera, got none");
             (void)ism::read_frame(image);
         });
     std::optional<OverlayFiles> overlays;
