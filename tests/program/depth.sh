@@ -28,8 +28,17 @@ cmp <(grep -F '"image_id":1,' found-1 | sed 's/,$//') <(grep -F '"image_id":1,' 
 "$ism" detect --model model --data toys/test.json -o sure --min-score 0.9 >/dev/null
 "$ism" detect --model model --data toys/test.json -o all --min-score 0 >/dev/null
 (($(grep -c image_id sure) < $(grep -c image_id all))) || fail "--min-score changes nothing"
-"$ism" detect --model model --data toys/test.json -o votes --rescore none >/dev/null
+"$ism" detect --model model --data toys/test.json -o votes --space metric --rescore none >/dev/null
 says '"position_m":[' votes
+! cmp -s votes all || fail "--rescore changes nothing"
+
+# What is asked for and is not of the space metric is not passed over.
+for option in "--rescore boxes" "--verify nms" "--segment patches"; do
+    refused_in_a_line "${option% *} in the space metric: expected" \
+        "$ism" detect --model model --data toys/test.json -o out --space metric $option
+    "$ism" detect --model model --data toys/test.json -o asked $option >detect.txt
+    grep -qx "space       jism" detect.txt || fail "$option: $(cat detect.txt)"
+done
 
 # Colours alone: found with the other model, and what is lost is said.
 sed -E 's/"depth_file_name":"[^"]*",//; s/"depth_scale":[0-9.]*,//' toys/test.json >toys/colour.json
