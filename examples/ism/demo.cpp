@@ -156,6 +156,7 @@ ism::ReportSection lesson_section(const ism::Dataset& train) {
 
 void run_demo(const DemoCommand& command) {
     constexpr std::size_t report_scenes = 6, report_rows = 2;
+    constexpr std::string_view shown_space = "jism";
     const Stopwatch watch;
     const fs::path& folder = command.folder;
     prepare(folder);
@@ -200,13 +201,13 @@ void run_demo(const DemoCommand& command) {
             const ism::Detections found = find_objects(scene, search);
             scenes[i].seconds[s] = look_seconds + search_watch.seconds();
             scenes[i].results[s] = ism::to_results(found, image, set.test.category_ids);
-            if (space_names[s] != default_space) continue;
+            if (space_names[s] != shown_space) continue;
             const ism::RgbImage picture = ism::read_rgb(image.file);
             overlays.write(i, picture, found, shapes.class_names);
             if (i < sections.size())
-                sections[i] = ism::detection_section(
-                    ism::join_text("Scene ", i + 1, ", found in space ", default_space), picture, found,
-                    shapes.class_names, {.rows = report_rows});
+                sections[i] =
+                    ism::detection_section(ism::join_text("Scene ", i + 1, ", found in space ", shown_space),
+                                           picture, found, shapes.class_names, {.rows = report_rows});
         }
         progress.step("detecting in five vote spaces", count);
     });

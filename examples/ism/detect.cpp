@@ -69,18 +69,24 @@ void check_depth(const DetectCommand& command, const ism::Dataset& dataset) {
                 "no depth");
 }
 
+/// Whether --space auto can choose metric: the model knows it, and nothing is asked for that is not of it.
+bool metric_allowed(const ism::Model& model, const SearchOptions& search) {
+    return !model.rgbd.empty() && search.rescorer == "auto" && search.verifier == "auto" &&
+           search.segmenter == "auto";
+}
+
 /// The space in which a frame is searched.
-std::string_view space_of(const ism::Frame& frame, std::string_view space, bool has_rgbd) {
+std::string_view space_of(const ism::Frame& frame, std::string_view space, bool may_be_metric) {
     if (space != auto_space) return space;
-    return has_rgbd && !frame.depth_m.empty() && frame.camera ? metric_space : "jism";
+    return may_be_metric && !frame.depth_m.empty() && frame.camera ? metric_space : "jism";
 }
 
 /// What --space auto came to.
-std::string spaces_text(std::size_t in_metres, std::size_t images, bool has_rgbd) {
+std::string spaces_text(std::size_t in_metres, std::size_t images, bool may_be_metric) {
     if (in_metres == images) return "metric";
     if (in_metres > 0)
         return ism::join_text("metric; jism for ", images - in_metres, " images without depth and camera");
-    return has_rgbd ? "jism, for want of depth and camera: no positions, and less is found" : "jism";
+    return may_be_metric ? "jism, for want of depth and camera: no positions, and less is found" : "jism";
 }
 
 /// Images for the report, and what is remarked beside their names.
@@ -131,6 +137,8 @@ void run_detect(const DetectCommand& command) {
             if (needs_depth(command.search.space) && image.depth_file.empty())
                 throw ism::FileError(ism::file_text(image.file) +
                                      ": expected a depth image beside it, got none");
+            if (command.search.space == metric_space && !image.camera)
+                throw ism::FileError(ism::file_text(image.file) + ": expected its camera, got none");
             (void)ism::read_frame(image);
         });
     std::optional<OverlayFiles> overlays;
@@ -140,6 +148,7 @@ void run_detect(const DetectCommand& command) {
     }
 
     const std::size_t count = dataset.images.size();
+    const bool auto_metric = metric_allowed(model, command.search);
     std::vector<std::vector<ism::Result>> results(count);
     std::vector<ism::ReportSection> sections;
     double search_seconds = 0;
@@ -164,14 +173,14 @@ void run_detect(const DetectCommand& command) {
         const auto find = [&](const ism::Frame& frame, unsigned worker, bool explain) {
             SearchOptions search = command.search;
             search.explain = explain;
-            search.space = space_of(frame, search.space, !model.rgbd.empty());
+            search.space = space_of(frame, search.space, auto_metric);
             const bool metric = search.space == metric_space;
             return find_objects((metric ? rgbd_matchers : matchers)[worker].scene(frame), search);
         };
         pool.for_each(count, [&](std::size_t i, unsigned worker) {
             const ism::DatasetImage& image = dataset.images[i];
             const ism::Frame frame = ism::read_frame(image);
-            if (space_of(frame, command.search.space, !model.rgbd.empty()) == metric_space) ++in_metres;
+            if (space_of(frame, command.search.space, auto_metric) == metric_space) ++in_metres;
             const ism::Detections found = find(frame, worker, overlays.has_value());
             results[i] = ism::to_results(found, image, ids);
             if (overlays) overlays->write(i, ism::read_rgb(image.file), found, shapes.class_names);
@@ -199,13 +208,13 @@ void run_detect(const DetectCommand& command) {
     for (auto& part : results) std::move(part.begin(), part.end(), std::back_inserter(all));
     if (!command.report.empty()) {
         ism::Report report{.title = "Detections"};
-        report.summary = {{"model", command.model.filename().string()},
-                          {"classes", list_text(shapes.class_names)},
-                          {"vote space", command.search.space == auto_space
-                                             ? spaces_text(in_metres, count, !model.rgbd.empty())
-                                             : command.search.space},
-                          {"images", std::to_string(count)},
-                          {"detections", std::to_string(all.size())}};
+        report.summary = {
+            {"model", command.model.filename().string()},
+            {"classes", list_text(shapes.class_names)},
+            {"vote space", command.search.space == auto_space ? spaces_text(in_metres, count, auto_metric)
+                                                              : command.search.space},
+            {"images", std::to_string(count)},
+            {"detections", std::to_string(all.size())}};
         if (sections.size() < count)
             report.summary.emplace_back(
                 "shown here", ism::join_text("the ", by_mistakes ? "" : "first ", sections.size(), " images",
@@ -217,7 +226,7 @@ void run_detect(const DetectCommand& command) {
     std::printf("images      %zu\n", count);
     if (skipped > 0) std::printf("skipped     %zu\n", skipped);
     if (command.search.space == auto_space)
-        std::printf("space       %s\n", spaces_text(in_metres, count, !model.rgbd.empty()).c_str());
+        std::printf("space       %s\n", spaces_text(in_metres, count, auto_metric).c_str());
     std::printf("detections  %zu\n", all.size());
     std::printf("seconds     %.1f\n", watch.seconds());
     std::printf("ms/image    %.0f (%u threads)\n", 1000 * search_seconds / double(count),

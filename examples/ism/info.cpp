@@ -24,9 +24,10 @@ void run_info(const std::filesystem::path& path) {
     std::printf("box classifier  %s\n", model.box_classifier.empty() ? "no" : "yes");
     std::printf("templates       %s\n", model.templates.empty() ? "no" : "yes");
     std::printf("exemplars       %zu\n", model.exemplars.size());
+    if (model.rgbd.empty()) std::printf("depth           no\n");
     for (const ism::Model& rgbd : model.rgbd)
-        std::printf("depth           %zu words with local frames, %zu regions\n", rgbd.words(),
-                    rgbd.mask_judge.examples.size());
+        std::printf("depth           %zu words, %zu of them on objects, %zu regions\n", rgbd.words(),
+                    rgbd.shapes.frames.size(), rgbd.mask_judge.examples.size());
     std::printf("probabilities   %s\n", model.calibration.empty() ? "no" : "yes");
     std::printf("reference size  %g px\n", ism::reference_size_px);
     for (const ism::Channel& channel : model.channels) {

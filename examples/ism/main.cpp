@@ -128,7 +128,7 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
     app.add_option(
            "--space", command.search.space,
            "vote space; auto: metric where the model was learnt with depth and the image has depth and a "
-           "camera, else jism")
+           "camera, and no --rescore, --verify or --segment is given, else jism")
         ->check(CLI::IsMember(spaces))
         ->capture_default_str();
     app.add_option("--keep", command.search.keep, "drop what scores less than this part of the image's best")

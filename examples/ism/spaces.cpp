@@ -87,6 +87,10 @@ static_assert(finders.size() == space_names.size() && depth_needed.size() == spa
 ism::Detections find_in_metres(ism::Scene scene, const SearchOptions& search) {
     ism::expect(!scene.model.mask_judge.empty(), "--space metric",
                 "a model learnt from images with depth and camera", "one without");
+    ism::expect(search.rescorer == "auto" || search.rescorer == "none", "--rescore in the space metric",
+                "auto or none", search.rescorer);
+    ism::expect(search.verifier == "auto", "--verify in the space metric", "auto", search.verifier);
+    ism::expect(search.segmenter == "auto", "--segment in the space metric", "auto", search.segmenter);
     if (search.rescorer == "none") {  // votes alone
         ism::Recognition<ism::Metric, ism::EpanechnikovKernel, ism::NoRescorer, ism::PatchSegmenter,
                          ism::NonMaximumSuppression>

@@ -114,8 +114,9 @@ void run_train(const TrainCommand& command) {
     std::printf("occurrences  %zu\n", model.shapes.occurrences.values().size());
     std::printf("upsampling   %.3g\n", settings.options.upsampling);
     if (depth)
-        std::printf("depth        of %zu images: %zu words with local frames, %zu regions to compare with\n",
-                    depth_images, model.rgbd[0].words(), model.rgbd[0].mask_judge.examples.size());
+        std::printf("depth        of %zu images: %zu words, %zu of them on objects, %zu regions\n",
+                    depth_images, model.rgbd[0].words(), model.rgbd[0].shapes.frames.size(),
+                    model.rgbd[0].mask_judge.examples.size());
     else if (command.depth && known && depth_images > 0)
         std::printf("depth        left out: what --add-to keeps has none; train anew for the space metric\n");
     std::printf("seconds      %.1f\n", watch.seconds());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "ism/model_file/model_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -28,7 +29,55 @@ using ism::test::TemporaryFolder;
 
 namespace {
 
-/// A model with random content, of 3 objects in 2 classes and two channels of words.
+/// Adds what is known of surfaces in space: points of two objects, frames that occurrences point to, and a
+/// judge of masks.
+void add_surfaces(ism::Model& model, ism::Random& random) {
+    const auto number = [&] { return static_cast<float>(random.uniform(-2, 2)); };
+    for (const std::size_t i : {0u, 2u}) {
+        ism::TrainingObject& object = model.shapes.objects[i];
+        object.size_m = std::abs(number());
+        object.centre_m = {number(), number(), std::abs(number())};
+        for (std::size_t k = 0; k < 3 + i; ++k) object.points_m.push_back({number(), number(), number()});
+    }
+    std::uint32_t frames = 0;
+    for (const ism::Occurrence& o : model.shapes.occurrences.values())
+        frames = std::max(frames, o.feature + 1);
+    for (std::uint32_t f = 0; f < frames; ++f)
+        model.shapes.frames.push_back({{number(), number(), number()},
+                                       ism::rotation_around({number(), number(), 1}, number()),
+                                       f % 3 == 0 ? 0 : std::abs(number())});
+    ism::MaskJudge& judge = model.mask_judge;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        ism::MaskExample example;
+        if (i < 3) example.class_index = model.shapes.objects[i].class_index, example.object = i;
+        for (float& bin : example.look.color) bin = static_cast<float>(random.uniform());
+        for (float& bin : example.look.shape) bin = static_cast<float>(random.uniform());
+        judge.examples.push_back(example);
+    }
+    for (std::size_t k = 0; k < ism::mask_cue_count; ++k)
+        judge.mean[k] = number(), judge.deviation[k] = 0.1f + std::abs(number()), judge.weights[k] = number();
+    judge.bias = number();
+    judge.shape_bin_m = 0.05f;
+}
+
+/// A model of the same classes for frames with depth, of three words.
+ism::Model depth_model(const ism::Model& model, ism::Random& random) {
+    ism::Model inner{.channels = {{ism::settings_of(ism::Extractor<ism::DifferenceOfGaussians, ism::Sift>{}),
+                                   ism::Codebook(128, 2), 12}}};
+    inner.shapes.class_names = model.shapes.class_names;
+    inner.shapes.objects = model.shapes.objects;
+    for (std::uint32_t w = 0; w < 3; ++w) {
+        inner.channels[0].codebook.push_back({std::vector<float>(128, 0.25f * float(w)), 1});
+        inner.shapes.occurrences.push_back(
+            std::vector<ism::Occurrence>(w, ism::Occurrence{.class_index = 1, .object = 1, .feature = w}));
+    }
+    inner.training = {3, 2, 1};
+    add_surfaces(inner, random);
+    return inner;
+}
+
+/// A model with random content, of 3 objects in 2 classes and two channels of words, with one for frames with
+/// depth in it.
 ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells = 9) {
     ism::Random random(7);
     const auto number = [&] { return static_cast<float>(random.uniform(-50, 50)); };
@@ -83,6 +132,9 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
         model.exemplars.push_back(one);
     }
     model.training = {12, 3456, 789};
+    model.channels[1].neighbours = 7;
+    model.rgbd = {depth_model(model, random)};
+    add_surfaces(model, random);
     return model;
 }
 
@@ -101,6 +153,7 @@ void check_equal(const ism::Model& a, const ism::Model& b) {
         CHECK(same_bytes(p.groups(), q.groups()));
         CHECK(same_bytes(p.sizes(), q.sizes()));
         CHECK(p.max_sq_distance() == q.max_sq_distance());
+        CHECK(a.channels[c].neighbours == b.channels[c].neighbours);
         CHECK(ism::detail::settings_to_json(a.channels[c].features, "a") ==
               ism::detail::settings_to_json(b.channels[c].features, "b"));
     }
@@ -122,7 +175,13 @@ void check_equal(const ism::Model& a, const ism::Model& b) {
         CHECK((p.width == q.width && p.height == q.height && p.size_px == q.size_px));
         CHECK(p.mask == q.mask);
         CHECK(p.image == q.image);
+        CHECK((p.size_m == q.size_m && p.centre_m == q.centre_m));
+        CHECK(p.points_m == q.points_m);
     }
+    CHECK(a.shapes.frames == b.shapes.frames);
+    CHECK(a.mask_judge == b.mask_judge);
+    REQUIRE(a.rgbd.size() == b.rgbd.size());
+    for (std::size_t i = 0; i < a.rgbd.size(); ++i) check_equal(a.rgbd[i], b.rgbd[i]);
 }
 
 /// A model of one channel, without words.
@@ -183,6 +242,14 @@ TEST_CASE("Models come back bit for bit, in the same bytes every time") {
     CHECK(read.channels[1].features.descriptor == "gray-patch");
     ism::save_model(folder / "again", read);
     CHECK(ism::read_bytes(folder / "m") == ism::read_bytes(folder / "again"));
+
+    ism::Model sparse = model;  // of a surface nothing but where it is; no frames, judge or inner model
+    sparse.rgbd.clear();
+    sparse.mask_judge = {};
+    sparse.shapes.frames.clear();
+    for (ism::TrainingObject& object : sparse.shapes.objects) object.points_m.clear();
+    ism::save_model(folder / "m", sparse);
+    check_equal(sparse, ism::load_model(folder / "m"));
 }
 
 TEST_CASE("The options of every detector come back") {
@@ -247,6 +314,26 @@ TEST_CASE("A model that could not be read again is not written") {
     refuses("spread of a template's aspect", [](ism::Model& m) { m.templates[0].log_aspect_spread = 0; });
     refuses("object of an exemplar", [](ism::Model& m) { m.exemplars[1].object = 3; });
     refuses("finite", [](ism::Model& m) { m.templates[0].bias = std::nanf(""); });
+    refuses("object_points", [](ism::Model& m) { m.shapes.objects[2].points_m[4].y = std::nanf(""); });
+    refuses("depth and size of an object", [](ism::Model& m) { m.shapes.objects[0].size_m = -1; });
+    refuses("unit quaternions", [](ism::Model& m) { m.shapes.frames[5].rotation.w += 0.1f; });
+    refuses("the number of frames", [](ism::Model& m) { m.shapes.frames.resize(3); });
+    refuses("of object 1", [](ism::Model& m) { m.mask_judge.examples[1].class_index = 0; });
+    refuses("of object 3", [](ism::Model& m) { m.mask_judge.examples[1].object = 3; });
+    refuses("deviation of a cue", [](ism::Model& m) { m.mask_judge.deviation[5] = 0; });
+    refuses("shape_bin_m", [](ism::Model& m) { m.mask_judge.shape_bin_m = 0; });
+    refuses("judge of masks", [](ism::Model& m) { m.mask_judge.bias = std::nanf(""); });
+    refuses("mask_looks", [](ism::Model& m) { m.mask_judge.examples[2].look.shape[7] = 1.1f; });
+    refuses("neighbours: expected 0 ... 1000", [](ism::Model& m) { m.channels[0].neighbours = 1001; });
+    refuses("models for depth: expected at most 1, got 2",
+            [](ism::Model& m) { m.rgbd.push_back(m.rgbd[0]); });
+    refuses("classes of the model for depth",
+            [](ism::Model& m) { m.rgbd[0].shapes.class_names[1] = "another"; });
+    refuses("model for depth: expected none within it", [](ism::Model& m) {
+        const ism::Model inner = m.rgbd[0];
+        m.rgbd[0].rgbd = {inner};
+    });
+    refuses("model for depth: words with occurrences", [](ism::Model& m) { m.rgbd[0].channels.clear(); });
 }
 
 TEST_CASE("A model file that was cut off or altered at any place is refused") {
@@ -330,7 +417,42 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {": class names: expected 1 or more", [](File& f) { f.metadata["class_names"] = "[]"; }},
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 8, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
+        {": format version: expected 9, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
+        {": object_places: expected -1e+06 ... 1e+06",
+         [&](File& f) { set(f, "object_places", 4, ism::no_depth); }},
+        {": depth and size of an object: expected 0 or more",
+         [](File& f) { set(f, "object_places", 2, -1.0f); }},
+        {": object_points: expected", [&](File& f) { set(f, "object_points", 0, infinity); }},
+        {": object_point_offsets: expected rising", [](File& f) { set(f, "object_point_offsets", 1, 9u); }},
+        {": object_point_offsets: expected 0 to", [](File& f) { set(f, "object_point_offsets", 3, 7u); }},
+        {": expected a tensor 'object_points'", [](File& f) { f.tensors.erase("object_points"); }},
+        {": occurrence_frames: expected unit quaternions",
+         [](File& f) { set(f, "occurrence_frames", 8 + 3, 1.5f); }},
+        {": occurrence_frames: expected unit quaternions, scales of 0 or more",
+         [](File& f) { set(f, "occurrence_frames", 8 + 7, -0.1f); }},
+        {": occurrence_frames: expected", [&](File& f) { set(f, "occurrence_frames", 0, ism::no_depth); }},
+        {": feature of an occurrence: expected below",
+         [](File& f) { set(f, "occurrence_feature", 1, 4000000000u); }},
+        {": mask_classes: expected background, or the class of an object",
+         [](File& f) { set(f, "mask_classes", 0, 1u); }},
+        {": mask_classes: expected background", [](File& f) { set(f, "mask_classes", 7, 0u); }},
+        {": mask_looks: expected", [](File& f) { set(f, "mask_looks", 0, -2.0f); }},
+        {": tensor 'mask_classes'",
+         [](File& f) {
+             f.tensors["mask_classes"] = ism::make_tensor<std::uint32_t>({}, {0, 2});
+         }},
+        {": deviation of a cue: expected above 0",
+         [](File& f) { set(f, "mask_regression", ism::mask_cue_count, 0.0f); }},
+        {": judge of masks: expected", [&](File& f) { set(f, "mask_regression", 0, infinity); }},
+        {": shape_bin_m: expected above 0", [](File& f) { set(f, "mask_numbers", 1, 0.0f); }},
+        {", model for depth: words: expected finite numbers",
+         [&](File& f) { set(f, "rgbd/channel_0_words", 3, infinity); }},
+        {", model for depth: expected a tensor 'mask_numbers'",
+         [](File& f) { f.tensors.erase("rgbd/mask_numbers"); }},
+        {", model for depth: expected metadata 'channels'",
+         [](File& f) { f.metadata.erase("rgbd/channels"); }},
+        {": classes of the model for depth: expected those of the model",
+         [](File& f) { f.metadata["rgbd/class_names"] = R"(["car","bus"])"; }},
         {": expected metadata 'channels'", [](File& f) { f.metadata.erase("channels"); }},
         {", channels: expected an array of 1 or more", [](File& f) { f.metadata["channels"] = "[]"; }},
         {", channels: dimension", [](File& f) { f.metadata["channels"] = "[{}]"; }},

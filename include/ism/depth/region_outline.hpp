@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "ism/core/region_mask.hpp"
 #include "ism/core/vec3.hpp"
+#include "ism/depth/fitted_planes.hpp"
 #include "ism/depth/surface.hpp"
 
 namespace ism {

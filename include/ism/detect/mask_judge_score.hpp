@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/error.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/mask_candidates.hpp"
@@ -104,6 +105,8 @@ struct KeepSegmentation {
 inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hypotheses,
                                                       const Scene& scene) const {
     const MaskJudge& judge = scene.model.mask_judge;
+    expect(!judge.empty(), "MaskJudgeScore: model", "one of learn_mask_judge()", "one without a judge");
+    expect(scene.surface != nullptr, "MaskJudgeScore: vote space", "a space with poses", "another");
     const std::size_t classes = scene.model.shapes.class_names.size();
     detail::sort_by(hypotheses, [](const Detection& d) { return detail::falling(d.score); });
     const RgbImage gray_as_color = scene.frame.color.empty() ? colors_of(scene.frame) : RgbImage();

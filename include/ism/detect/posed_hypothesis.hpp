@@ -78,6 +78,7 @@ inline Detection describe_posed_hypothesis(double /*score*/, std::vector<Support
         return shapes.occurrence(s.occurrence).class_index != result.class_index;
     });
     result.support = one_a_feature(std::move(window));
+    if (result.support.empty()) return result;
 
     const Camera& camera = *scene.frame.camera;
     double total = 0, scale = 0, size = 0;

@@ -21,8 +21,9 @@ namespace ism {
 
 namespace detail {
 
-/// The convex hull of points, from left to right and back (Andrew 1979).
+/// The convex hull of points, from left to right and back (Andrew 1979). One point is its own.
 [[nodiscard]] inline std::vector<Point2> convex_hull(std::vector<Point2> points) {
+    if (points.size() < 2) return points;
     sort_by(points, [](const Point2& p) { return rising(p.y); });
     sort_by(points, [](const Point2& p) { return rising(p.x); });
     std::vector<Point2> hull;

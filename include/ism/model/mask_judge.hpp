@@ -32,6 +32,7 @@ struct MaskExample {
     MaskLook look = {};
     std::uint32_t class_index = background;
     std::uint32_t object = background;  ///< which training object it shows; background shows none
+    [[nodiscard]] bool operator==(const MaskExample&) const = default;
 };
 
 /// @brief Numbers by which a region is judged for a class: see mask_cues().
@@ -49,6 +50,7 @@ struct MaskJudge {
     float shape_bin_m = 0.04f;  ///< width of a bin of distances, from the sizes of the training objects
 
     [[nodiscard]] bool empty() const { return examples.empty(); }
+    [[nodiscard]] bool operator==(const MaskJudge&) const = default;
 
     /// @brief What each cue adds to the logit of a class.
     [[nodiscard]] MaskCues shares(const MaskCues& cues) const {

@@ -14,6 +14,7 @@ struct OccurrenceFrame {
     Vec3f offset_m = {};     ///< from the feature to the object's centre, in the feature's local frame
     Rotation rotation = {};  ///< R_i: the feature's local frame in the camera frame of the training image
     float scale_m = 0;       ///< s_i · z_i / f: the feature's scale as a length; 0 = no frame is known
+    [[nodiscard]] bool operator==(const OccurrenceFrame&) const = default;
 };
 
 }  // namespace ism

@@ -94,6 +94,11 @@ inline void codebook_to_tensors(const Codebook& codebook, const std::string& pre
 /// What the names of a model within a model begin with.
 inline constexpr std::string_view rgbd_prefix = "rgbd/";
 
+/// How messages name the model for depth within the model of a file.
+[[nodiscard]] inline std::string rgbd_source(const std::string& source) {
+    return source + ", model for depth";
+}
+
 /// The tensors of a model, as save_model() writes them.
 [[nodiscard]] inline TensorFile model_to_tensors(const Model& model, const std::string& source) {
     TensorFile file{.source = source};
@@ -134,7 +139,7 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     mask_judge_to_tensors(mask_judge, file);
     expect<FileError>(rgbd.size() <= 1, lazy_text(source, ": models for depth"), "at most 1", rgbd.size());
     for (const Model& inner : rgbd) {
-        TensorFile part = model_to_tensors(inner, source);
+        TensorFile part = model_to_tensors(inner, rgbd_source(source));
         for (auto& [name, text] : part.metadata)
             file.metadata[std::string(rgbd_prefix) + name] = std::move(text);
         for (auto& [name, tensor] : part.tensors)
@@ -144,8 +149,8 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
 }
 
 /// What has names that begin with `prefix`, without it.
-[[nodiscard]] inline TensorFile part_of(const TensorFile& file, std::string_view prefix) {
-    TensorFile part{.source = file.source};
+[[nodiscard]] inline TensorFile part_of(const TensorFile& file, std::string_view prefix, std::string source) {
+    TensorFile part{.source = std::move(source)};
     for (const auto& [name, text] : file.metadata)
         if (name.starts_with(prefix)) part.metadata[name.substr(prefix.size())] = text;
     for (const auto& [name, tensor] : file.tensors)
@@ -192,8 +197,10 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     model.shapes.objects = with_points_from_tensors(std::move(model.shapes.objects), file);
     model.shapes.frames = frames_from_tensors(file, model.shapes.occurrences.values());
     model.mask_judge = mask_judge_from_tensors(file, model.shapes.objects);
-    if (TensorFile inner = part_of(file, rgbd_prefix); !inner.tensors.empty()) {
+    if (const TensorFile inner = part_of(file, rgbd_prefix, rgbd_source(file.source));
+        !inner.tensors.empty()) {
         model.rgbd.push_back(model_from_tensors(inner));
+        expect<FileError>(model.rgbd[0].rgbd.empty(), inner.source, "none within it", "one");
         expect<FileError>(model.rgbd[0].shapes.class_names == model.shapes.class_names,
                           lazy_text(file.source, ": classes of the model for depth"), "those of the model",
                           "others");

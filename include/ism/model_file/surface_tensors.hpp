@@ -28,7 +28,7 @@ inline void check_numbers(std::span<const float> numbers, float most, TextPart p
         expect<FileError>(std::abs(number) <= most, place, lazy_text(-most, " ... ", most), number);
 }
 
-/// Where objects lie in space and points of their surfaces; nothing where no object has any.
+/// Where objects lie in space and points of their surfaces; nothing where no object has either.
 inline void points_to_tensors(std::span<const TrainingObject> objects, TensorFile& file) {
     std::vector<float> places, points;
     std::vector<std::uint32_t> offsets{0};
@@ -37,7 +37,7 @@ inline void points_to_tensors(std::span<const TrainingObject> objects, TensorFil
         for (const Vec3f& p : o.points_m) points.insert(points.end(), {p.x, p.y, p.z});
         offsets.push_back(static_cast<std::uint32_t>(points.size() / 3));
     }
-    if (points.empty()) return;
+    if (points.empty() && std::all_of(places.begin(), places.end(), [](float p) { return p == 0; })) return;
     file.tensors["object_places"] = make_tensor<float>(places, {objects.size(), 4});
     file.tensors["object_points"] = make_tensor<float>(points, {points.size() / 3, 3});
     file.tensors["object_point_offsets"] = offsets_tensor(offsets);

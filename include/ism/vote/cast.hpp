@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
+#include "ism/core/error.hpp"
 #include "ism/core/order.hpp"
 #include "ism/model/shape_model.hpp"
 #include "ism/vote/posed_object.hpp"
@@ -73,12 +74,20 @@ template <std::predicate<const Occurrence&> LeftOut>
 /// @param camera  of the image; null = not known
 /// @param frames  of the features; only for a space with poses
 /// @return the votes by label, then feature, word and occurrence
+/// @throws Error in a space with poses without a camera or frames, or for a model that knows no frames.
 template <VoteSpaceType Space>
 [[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(
     const std::vector<Feature>& features, const std::vector<Match>& matches, const ShapeModel& shapes,
     const Camera* camera = nullptr, const VoteLimits& limits = {},
     const std::vector<std::optional<LocalFrame>>& frames = {}) {
     using V = Vote<Space::dimension>;
+    if constexpr (Space::needs_pose) {
+        expect(!shapes.frames.empty() || shapes.occurrences.values().empty(),
+               "votes of a space with poses: model", "one of learn_metric()", "one without local frames");
+        expect(camera != nullptr, "votes of a space with poses: camera", "one", "none");
+        expect(frames.size() == features.size(), "votes of a space with poses: local frames", features.size(),
+               frames.size());
+    }
     std::vector<V> votes;
     const auto left_out = [&](const Occurrence& o) {
         return o.object >= limits.without_first && o.object < limits.without_end;

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
+
+# Depth is learnt where images have it, and used where model, image and camera know of it.
+make_toys
+"$ism" train --data toys/train.json -o model --no-templates --threads 2 >train.txt
+says "depth        of 24 images: " train.txt
+"$ism" info model >info.txt
+says "depth           " info.txt
+for threads in 1 3; do
+    "$ism" detect --model model --data toys/test.json -o found-$threads --threads $threads >detect.txt
+done
+says "space       metric" detect.txt
+cmp found-1 found-3 || fail "other detections with 3 threads"
+says '"position_m":[' found-1
+! grep -F '"position_m":null' found-1 || fail "a detection in metres without a position"
+"$ism" detect --model model --data toys/test.json -o found-metric --space metric --report report.html >detect.txt
+cmp found-1 found-metric || fail "--space auto is not metric"
+! grep "^space" detect.txt || fail "a space that was asked for is told"
+says "metric" report.html
+"$ism" detect --model model toys/test/test-0000.png --depth toys/test/test-0000-depth.png --depth-scale 0.001 \
+    --camera 262.5,262.5,159.5,119.5 -o single >detect.txt
+says "space       metric" detect.txt
+cmp <(grep -F '"image_id":1,' found-1 | sed 's/,$//') <(grep -F '"image_id":1,' single | sed 's/,$//') ||
+    fail "one image is not detected as the same image of a data set"
+"$ism" detect --model model --data toys/test.json -o sure --min-score 0.9 >/dev/null
+"$ism" detect --model model --data toys/test.json -o all --min-score 0 >/dev/null
+(($(grep -c image_id sure) < $(grep -c image_id all))) || fail "--min-score changes nothing"
+"$ism" detect --model model --data toys/test.json -o votes --space metric --rescore none >/dev/null
+says '"position_m":[' votes
+! cmp -s votes all || fail "--rescore changes nothing"
+
+# What is asked for and is not of the space metric is not passed over.
+for option in "--rescore boxes" "--verify nms" "--segment patches"; do
+    refused_in_a_line "${option% *} in the space metric: expected" \
+        "$ism" detect --model model --data toys/test.json -o out --space metric $option
+    "$ism" detect --model model --data toys/test.json -o asked $option >detect.txt
+    grep -qx "space       jism" detect.txt || fail "$option: $(cat detect.txt)"
+done
+
+# Colours alone: found with the other model, and what is lost is said.
+sed -E 's/"depth_file_name":"[^"]*",//; s/"depth_scale":[0-9.]*,//' toys/test.json >toys/colour.json
+"$ism" detect --model model --data toys/colour.json -o colour >detect.txt
+says "space       jism, for want of depth and camera: no positions, and less is found" detect.txt
+says '"image_id":1,' colour
+says '"depth_m":null' colour
+sed '0,/"depth_file_name":"[^"]*",/s///; 0,/"depth_scale":[0-9.]*,/s///' toys/test.json >toys/mixed.json
+"$ism" detect --model model --data toys/mixed.json -o mixed >detect.txt
+says "space       metric; jism for 1 images without depth and camera" detect.txt
+cmp <(grep -F '"image_id":1,' mixed | sed 's/,$//') <(grep -F '"image_id":1,' colour | sed 's/,$//') ||
+    fail "an image without depth among others is detected otherwise"
+cmp <(grep -F '"image_id":2,' mixed | sed 's/,$//') <(grep -F '"image_id":2,' found-1 | sed 's/,$//') ||
+    fail "an image with depth among others is detected otherwise"
+refused_in_a_line "vote space metric: expected depth_file_name in 'toys/colour.json'" \
+    "$ism" detect --model model --data toys/colour.json -o out --space metric
+refused "test-0000.png': expected a depth image beside it, got none" \
+    "$ism" detect --model model --data toys/mixed.json -o out --space metric
+sed -E 's/"camera":\{[^}]*\},//' toys/test.json >toys/no-camera.json
+refused "test-0000.png': expected its camera, got none" \
+    "$ism" detect --model model --data toys/no-camera.json -o out --space metric
+"$ism" detect --model model --data toys/no-camera.json -o no-camera >detect.txt
+says "space       jism, for want of depth and camera" detect.txt
+
+# A model of colours alone; its part of the other model is the same.
+"$ism" train --data toys/train.json -o flat --no-templates --no-depth >train.txt
+! grep "^depth" train.txt || fail "--no-depth: $(cat train.txt)"
+"$ism" info flat >info.txt
+says "depth           no" info.txt
+"$ism" detect --model flat --data toys/test.json -o flat-found >detect.txt
+grep -qx "space       jism" detect.txt || fail "a model without depth: $(cat detect.txt)"
+"$ism" detect --model model --data toys/test.json -o jism-found --space jism >/dev/null
+cmp flat-found jism-found || fail "depth changes what jism finds"
+refused_in_a_line "--space metric: expected a model learnt from images with depth and camera, got one without" \
+    "$ism" detect --model flat --data toys/test.json -o out --space metric
+
+# More classes are taught to the colours alone, which is said.
+"$ism" train --data toys/train.json -o two --no-templates --no-depth --class car --growable >/dev/null
+"$ism" train --data toys/train.json -o three --add-to two --class mug >train.txt
+says "depth        left out" train.txt
