@@ -199,8 +199,11 @@ void run_detect(const DetectCommand& command) {
             const ism::Detections found = find(frame, worker, true);
             const std::string name =
                 command.image.empty() ? short_name(dataset, image) : image.file.filename().string();
-            sections[k] = ism::detection_section(name + choice.remarks[k], ism::read_rgb(image.file), found,
-                                                 shapes.class_names, {.rows = report_rows});
+            sections[k] = ism::detection_section(
+                name + choice.remarks[k], ism::read_rgb(image.file), found, shapes.class_names,
+                {.rows = report_rows,
+                 .objects = model.rgbd.empty() ? std::span<const ism::TrainingObject>()
+                                               : model.rgbd[0].shapes.objects});
         });
     }
 

@@ -56,6 +56,26 @@ ism::TrainingSet named_images(const ism::Dataset& dataset) {
     return set;
 }
 
+/// Learns the model for frames with depth from the images that have it, where every class has such images.
+/// @return what came of it, to be told; empty where no image has depth
+std::string add_depth(ism::Model& model, const ism::Dataset& dataset, const ism::TrainOptions& options,
+                      bool adding) {
+    ism::Dataset with_depth = dataset;
+    std::erase_if(with_depth.images,
+                  [](const ism::DatasetImage& image) { return image.depth_file.empty() || !image.camera; });
+    if (with_depth.images.empty()) return {};
+    if (adding) return "left out: what --add-to keeps has none; train anew for the space metric";
+    try {
+        model.rgbd = {learn_rgbd(dataset.class_names, named_images(with_depth), options)};
+    } catch (const ism::Error& error) {
+        return ism::join_text("left out, the space metric is not there: ", error.what());
+    }
+    const ism::Model& rgbd = model.rgbd[0];
+    return ism::join_text("of ", with_depth.images.size(), " images: ", rgbd.words(), " words, ",
+                          rgbd.shapes.frames.size(), " of them on objects, ", rgbd.mask_judge.examples.size(),
+                          " regions");
+}
+
 }  // namespace
 
 void run_train(const TrainCommand& command) {
@@ -88,14 +108,10 @@ void run_train(const TrainCommand& command) {
     if (known) features = ism::append(std::move(known->features), std::move(features));
     ism::Model model = learn(features, options);
     if (templates) model = learn_templates(std::move(model), features, options);
-    const auto with_depth = [](const ism::DatasetImage& image) {
-        return !image.depth_file.empty() && image.camera;
-    };
-    const auto depth_images =
-        std::size_t(std::count_if(dataset.images.begin(), dataset.images.end(), with_depth));
-    const bool depth = command.depth && !known && depth_images > 0;
-    if (depth) model.rgbd = {learn_rgbd(dataset.class_names, named_images(dataset), options)};
-    ism::save_model(command.model, model, command.growable || known ? &features : nullptr);
+    const bool keep_features = command.growable || known;
+    if (!keep_features) features = {};  // the memory is needed
+    const std::string depth = command.depth ? add_depth(model, dataset, options, known.has_value()) : "";
+    ism::save_model(command.model, model, keep_features ? &features : nullptr);
     progress.clear();
 
     const ism::FeatureSettings& settings = model.channels.front().features;
@@ -113,12 +129,7 @@ void run_train(const TrainCommand& command) {
     std::printf("\nwords        %zu\n", model.words());
     std::printf("occurrences  %zu\n", model.shapes.occurrences.values().size());
     std::printf("upsampling   %.3g\n", settings.options.upsampling);
-    if (depth)
-        std::printf("depth        of %zu images: %zu words, %zu of them on objects, %zu regions\n",
-                    depth_images, model.rgbd[0].words(), model.rgbd[0].shapes.frames.size(),
-                    model.rgbd[0].mask_judge.examples.size());
-    else if (command.depth && known && depth_images > 0)
-        std::printf("depth        left out: what --add-to keeps has none; train anew for the space metric\n");
+    if (!depth.empty()) std::printf("depth        %s\n", depth.c_str());
     std::printf("seconds      %.1f\n", watch.seconds());
 }
 

@@ -28,8 +28,10 @@ struct Support {
 /// @brief Why a mask is taken for an object of a class (MaskJudge): what votes, colour and shape add to the
 /// logarithm of the odds, and the training objects it looks like.
 struct MaskReasons {
-    double votes = 0, color = 0, shape = 0, look = 0;  ///< look: colour and shape together
-    std::uint32_t color_object = 0, shape_object = 0;  ///< indices into ShapeModel::objects
+    double votes = 0, color = 0, shape = 0;
+    double look = 0;                                                    ///< colour and shape together
+    double outline = 0;                                                 ///< how the mask ends
+    std::optional<std::uint32_t> color_object = {}, shape_object = {};  ///< indices into ShapeModel::objects
 };
 
 /// @brief Which pixels belong to an object. All images are of one size and cover the part of the image

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -89,7 +90,7 @@ struct RegionVotes {
 struct LookDistance {
     double sq_color = far, sq_shape = far;      ///< of the nearest by each alone
     double sq_both = far, sq_three_both = far;  ///< by both, of the nearest one and the mean of three
-    std::uint32_t color_example = 0, shape_example = 0;  ///< the nearest by each alone
+    std::optional<std::uint32_t> color_example = {}, shape_example = {};  ///< the nearest by each alone
     static constexpr double far = 4;
 };
 

@@ -56,12 +56,17 @@ struct KeepSegmentation {
         for (std::size_t i = first; i < first + count; ++i) total += shares[i];
         return total;
     };
+    const auto object = [&](std::optional<std::uint32_t> example) -> std::optional<std::uint32_t> {
+        if (!example) return {};
+        return judge.examples[*example].object;
+    };
     return {.votes = sum(0, vote_cue_count),
             .color = sum(vote_cue_count, 3),
             .shape = sum(vote_cue_count + 3, 3),
             .look = sum(vote_cue_count + 6, 6),
-            .color_object = judge.examples[look.color_example].object,
-            .shape_object = judge.examples[look.shape_example].object};
+            .outline = sum(vote_cue_count + look_cue_count, outline_cue_count),
+            .color_object = object(look.color_example),
+            .shape_object = object(look.shape_example)};
 }
 
 /// @brief The votes of features in a region.
@@ -119,7 +124,8 @@ inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hyp
         const auto looks = look_distances(look, judge.examples, classes);
         const RegionOutline outline = region_outline(*scene.surface, regions[i]);
         for (std::uint32_t c = 0; c < classes; ++c) {
-            const double logit = judge.logit(mask_cues(votes, looks, outline, c));
+            const MaskCues cues = mask_cues(votes, looks, outline, c);
+            const double logit = judge.logit(cues);
             if (logit < min_logit) continue;
             Detection detection;
             detection.class_index = c;
@@ -129,7 +135,7 @@ inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hyp
             detection.centre = detection.box.centre();
             detection.scale = std::sqrt(detection.box.area()) / reference_size_px;
             detection.segmentation = sure_segmentation(regions[i]);
-            detection.reasons = mask_reasons(judge, mask_cues(votes, looks, outline, c), looks[c]);
+            detection.reasons = mask_reasons(judge, cues, looks[c]);
             if (votes[c].weight > 0)
                 detection.support = support_in(hypotheses[votes[c].hypothesis].support, regions[i], scene);
             judged[i].push_back(placed(std::move(detection), regions[i], scene));

@@ -7,12 +7,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ism/detect/detection.hpp"
 #include "ism/io/png.hpp"
+#include "ism/model/training_object.hpp"
 #include "ism/show/overlay.hpp"
 #include "ism/show/report.hpp"
 #include "ism/show/report_cells.hpp"
@@ -24,6 +27,8 @@ struct DetectionReportOptions {
     std::size_t rows = 5;     ///< detections with four images and reasons, the strongest first
     std::size_t reasons = 6;  ///< words and features named for each
     OverlayOptions overlay = {.side_px = 360};
+    /// The model's, to name the training images that a detection looks like; empty = numbers alone.
+    std::span<const TrainingObject> objects = {};
 };
 
 /// @brief What is known of a detection: votes, position, depth, scale, box.
@@ -44,11 +49,37 @@ struct DetectionReportOptions {
                            words.size(), " words"));
     if (const auto& p = detection.position_m)
         add("position x, y, z",
-            number_text(p->x, 3) + ", " + number_text(p->y, 3) + ", " + number_text(p->z, 3) + " m");
+            number_text(p->x, 3) + ", " + number_text(p->y, 3) + ", " + number_text(p->z, 3) + " m" +
+                (std::isnan(detection.position_error_m)
+                     ? ""
+                     : ", standard error " + number_text(1000 * detection.position_error_m, 2) + " mm"));
+    if (!std::isnan(detection.size_m)) add("size", number_text(detection.size_m, 3) + " m");
     if (is_depth(detection.depth_m)) add("depth", number_text(detection.depth_m, 3) + " m");
     add("scale", number_text(detection.scale, 3));
     add("centre", number_text(detection.centre.x) + ", " + number_text(detection.centre.y) + " px");
     add("figure", join_text(mask_area(detection.segmentation.mask), " px"));
+    return table;
+}
+
+/// @brief What speaks for the class of a mask that was judged (MaskJudge), in logarithms of odds, and the
+/// training objects it looks like.
+[[nodiscard]] inline ReportTable reason_table(const MaskReasons& reasons,
+                                              std::span<const TrainingObject> objects = {}) {
+    ReportTable table{.caption = "why this class", .header = {"what", "log odds", "most like"}};
+    const auto like = [&](const std::optional<std::uint32_t>& object) -> std::string {
+        if (!object) return "";
+        if (*object >= objects.size()) return join_text("training object ", *object);
+        return join_text("training object ", *object, ", ", objects[*object].image);
+    };
+    const auto add = [&](const char* what, double log_odds, std::string example) {
+        table.rows.push_back(
+            {what, (log_odds > 0 ? "+" : "") + number_text(log_odds, 2), std::move(example)});
+    };
+    add("votes", reasons.votes, "");
+    add("colour", reasons.color, like(reasons.color_object));
+    add("shape", reasons.shape, like(reasons.shape_object));
+    add("colour and shape together", reasons.look, "");
+    add("outline", reasons.outline, "");
     return table;
 }
 
@@ -116,6 +147,7 @@ struct DetectionReportOptions {
         why.parts.push_back(
             ReportImage{"", encode_png(draw_explanation(image, detections, i, class_names, without_cells))});
         if (!detection.cells.shares.empty()) why.parts.push_back(cells_plot(image, detection));
+        if (detection.reasons) why.parts.push_back(reason_table(*detection.reasons, options.objects));
         why.parts.push_back(fact_table(detection));
         why.parts.push_back(word_table(detection, options.reasons));
         why.parts.push_back(feature_table(detections, detection, options.reasons));

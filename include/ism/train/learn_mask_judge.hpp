@@ -38,6 +38,18 @@ struct MaskJudgeOptions {
     double cost = 0.1;        ///< of an error against the squared weights
 };
 
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const MaskJudgeOptions& options) {
+    check(options.candidates.segments);
+    expect(options.same_iou > 0 && options.same_iou <= 1, "MaskJudgeOptions::same_iou", "above 0, at most 1",
+           options.same_iou);
+    expect(options.other_iou >= 0 && options.other_iou <= options.same_iou, "MaskJudgeOptions::other_iou",
+           "0 ... same_iou", options.other_iou);
+    expect(options.cost > 0 && options.cost <= 1e6, "MaskJudgeOptions::cost", "above 0, at most 1e6",
+           options.cost);
+}
+
 namespace detail {
 
 /// A region of a training image: what it looks like, what votes say of it, what it is.
@@ -86,12 +98,15 @@ struct JudgedRegion {
         scene, votes, default_bandwidth<Metric>(), search, describe_posed_hypothesis);
     sort_by(hypotheses, [](const Detection& d) { return falling(d.score); });
     std::vector<RegionMask> regions = depth.masks;
+    const std::size_t labelled = regions.size();
     for (RegionMask& candidate : mask_candidates(scene, hypotheses, options.candidates))
         regions.push_back(std::move(candidate));
     std::vector<JudgedRegion> judged;
-    for (const RegionMask& region : regions) {
-        const auto shown = shown_object(region, depth.masks, view.labels, options);
-        if (!shown) continue;
+    for (std::uint32_t r = 0; r < regions.size(); ++r) {
+        const RegionMask& region = regions[r];
+        const auto shown =
+            r < labelled ? std::optional(r) : shown_object(region, depth.masks, view.labels, options);
+        if (!shown || region.mask.empty()) continue;
         JudgedRegion one{.example = {.look = describe_mask(scene, view.pixels, region, shape_bin_m)},
                          .votes = region_votes(scene, hypotheses, region),
                          .outline = region_outline(*scene.surface, region)};
@@ -170,6 +185,7 @@ inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
 [[nodiscard]] inline Model learn_mask_judge(Model model, const TrainingFeatures& features,
                                             const MaskJudgeOptions& options = {}, unsigned threads = 0,
                                             const Progress& progress = {}) {
+    check(options);
     const DepthViews known = depth_views(features);
     const std::vector<const TrainingView*>& views = known.views;
     std::vector<std::uint32_t> first_word{0};  // of each view
@@ -214,6 +230,7 @@ inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
     });
     std::vector<MaskCues> all_cues;
     std::vector<std::uint8_t> all_right;
+    expect(!judge.examples.empty(), "judge of masks: regions in images with depth", "1 or more", 0);
     for (std::size_t v = 0; v < views.size(); ++v) {
         all_cues.insert(all_cues.end(), cues[v].begin(), cues[v].end());
         all_right.insert(all_right.end(), right[v].begin(), right[v].end());

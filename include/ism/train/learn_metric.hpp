@@ -75,6 +75,8 @@ struct MetricWords {
                                         unsigned threads = 0) {
     expect(features.settings.size() == 1, "metric model: channels", 1, features.settings.size());
     const std::vector<const TrainingView*> views = depth_views(features).views;
+    expect(options.neighbours >= 1 && options.neighbours <= 1000, "MetricOptions::neighbours", "1 ... 1000",
+           options.neighbours);
     std::vector<detail::MetricWords> parts(views.size());
     parallel_for(views.size(), threads,
                  [&](std::size_t i) { parts[i] = detail::metric_words(*views[i], features); });
