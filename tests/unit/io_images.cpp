@@ -94,6 +94,12 @@ TEST_CASE("Images of every kind come back from PNG files as they were") {
         const ism::GrayImage deep = ism::read_gray(folder / "depth.png");
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) REQUIRE(deep(x, y) == Approx(depth(x, y) / 65535.0).margin(1e-7));
+
+        for (const char* name : {"noise.png", "gray.png", "depth.png"}) {
+            const ism::Picture picture = ism::read_picture(folder / name);
+            CHECK(picture.gray == ism::read_gray(folder / name));
+            CHECK(picture.color == ism::read_rgb(folder / name));
+        }
     }
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ism/core/frame.hpp"
@@ -30,7 +31,8 @@ namespace ism {
             throw FileError(join_text(file_text(file), ": expected ", detail::sides_text(image),
                                       " pixels as its data set says, got ", size_text(pixels)));
     };
-    Frame frame{.gray = read_gray(image.file), .color = read_rgb(image.file)};
+    Picture picture = read_picture(image.file);
+    Frame frame{.gray = std::move(picture.gray), .color = std::move(picture.color)};
     check_size(image.file, frame.gray);
     if (!image.depth_file.empty()) {
         const RawDepth raw = read_raw_depth(image.depth_file);

@@ -86,23 +86,17 @@ template <class Sample>
 
 }  // namespace detail
 
-/// @brief Reads a PNG, JPEG, BMP or binary PNM file as colour: grey becomes r = g = b, transparency is
-/// dropped, 16 bits are cut to 8.
-/// @throws FileError where the file is missing, a folder, no image, truncated, damaged, or too large.
-[[nodiscard]] inline RgbImage read_rgb(const std::filesystem::path& path) {
-    const detail::ImageFile file = detail::open_image(path);
-    const auto samples = detail::decode(file, 3, stbi_load_from_memory);
+namespace detail {
+
+[[nodiscard]] inline RgbImage decode_rgb(const ImageFile& file) {
+    const auto samples = decode(file, 3, stbi_load_from_memory);
     RgbImage image(file.width, file.height);
     const std::uint8_t* at = samples.get();
     for (Rgb& pixel : image.pixels()) pixel = {at[0], at[1], at[2]}, at += 3;
     return image;
 }
 
-/// @brief Reads an image file as brightness 0 … 1; grey files of 8 and of 16 bits keep their full precision,
-/// colours are weighted as by to_gray().
-/// @throws FileError as read_rgb() does.
-[[nodiscard]] inline GrayImage read_gray(const std::filesystem::path& path) {
-    const detail::ImageFile file = detail::open_image(path);
+[[nodiscard]] inline GrayImage decode_gray(const ImageFile& file) {
     const bool colored = file.channels >= 3;
     GrayImage image(file.width, file.height);
     const auto fill = [&](const auto* at, float full) {
@@ -112,10 +106,41 @@ template <class Sample>
         }
     };
     if (file.deep)
-        fill(detail::decode(file, colored ? 3 : 1, stbi_load_16_from_memory).get(), 65535.0f);
+        fill(decode(file, colored ? 3 : 1, stbi_load_16_from_memory).get(), 65535.0f);
     else
-        fill(detail::decode(file, colored ? 3 : 1, stbi_load_from_memory).get(), 255.0f);
+        fill(decode(file, colored ? 3 : 1, stbi_load_from_memory).get(), 255.0f);
     return image;
+}
+
+}  // namespace detail
+
+/// @brief Reads a PNG, JPEG, BMP or binary PNM file as colour: grey becomes r = g = b, transparency is
+/// dropped, 16 bits are cut to 8.
+/// @throws FileError where the file is missing, a folder, no image, truncated, damaged, or too large.
+[[nodiscard]] inline RgbImage read_rgb(const std::filesystem::path& path) {
+    return detail::decode_rgb(detail::open_image(path));
+}
+
+/// @brief Reads an image file as brightness 0 … 1; grey files of 8 and of 16 bits keep their full precision,
+/// colours are weighted as by to_gray().
+/// @throws FileError as read_rgb() does.
+[[nodiscard]] inline GrayImage read_gray(const std::filesystem::path& path) {
+    return detail::decode_gray(detail::open_image(path));
+}
+
+/// @brief An image file by its brightness and by its colours.
+struct Picture {
+    GrayImage gray;
+    RgbImage color;
+};
+
+/// @brief What read_gray() and read_rgb() read; colours of 8 bits are decoded once.
+/// @throws FileError as read_rgb() does.
+[[nodiscard]] inline Picture read_picture(const std::filesystem::path& path) {
+    const detail::ImageFile file = detail::open_image(path);
+    Picture picture{.gray = {}, .color = detail::decode_rgb(file)};
+    picture.gray = file.channels >= 3 && !file.deep ? to_gray(picture.color) : detail::decode_gray(file);
+    return picture;
 }
 
 /// @brief Reads a depth camera's units from a 16-bit grey PNG file; 0 = no reading.
