@@ -5,8 +5,8 @@
 //   figure_sets with-background SET.json FOLDER OUT.json     and the photographs of a folder, without objects
 //   figure_sets only-background SET.json FOLDER OUT.json     these alone, with the classes of the set
 //   figure_sets rescaled SET.json FOLDER                     each image at a random size, in FOLDER with
-//   set.json figure_sets without-object SET.json K TRAIN.json TEST.json   object K of each class (car7-…)
-//   apart from the others
+//   set.json figure_sets without-object SET.json K TRAIN.json TEST.json   object K of each class (instance,
+//   or car7-…) apart from the others
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -77,15 +77,18 @@ namespace fs = std::filesystem;
     return set;
 }
 
-/// What an image shows: car7 of car7-090-000.png; its length comes first, so that car10 follows car9.
+/// What an image shows: its instance, or car7 of car7-090-000.png; the length comes first, so that car10
+/// follows car9.
 [[nodiscard]] std::pair<std::size_t, std::string> object_of(const ism::DatasetImage& image) {
+    const std::string& instance = image.objects.at(0).instance;
+    if (!instance.empty()) return {instance.size(), instance};
     const std::string name = image.file.stem().string();
     const std::size_t end = name.find('-');
     ism::expect(end != name.npos, ism::lazy_text("name of ", name), "an object and a dash", "no dash");
     return {end, name.substr(0, end)};
 }
 
-/// The images of the K-th object of each class, counted from 1; or all others.
+/// The images of the K-th object of each class that has so many, counted from 1; or all others.
 [[nodiscard]] ism::Dataset of_object(ism::Dataset set, const std::string& k, bool this_one) {
     std::map<std::uint32_t, std::set<std::pair<std::size_t, std::string>>> objects;
     for (const ism::DatasetImage& image : set.images)
@@ -93,10 +96,10 @@ namespace fs = std::filesystem;
     std::set<std::pair<std::size_t, std::string>> chosen;
     for (const auto& [class_index, names] : objects) {
         const std::size_t at = std::stoul(k);
-        ism::expect(at >= 1 && at <= names.size(), "number of an object",
-                    ism::lazy_text("1 ... ", names.size()), at);
-        chosen.insert(*std::next(names.begin(), std::ptrdiff_t(at - 1)));
+        ism::expect(at >= 1, "number of an object", "1 or more", at);
+        if (at <= names.size()) chosen.insert(*std::next(names.begin(), std::ptrdiff_t(at - 1)));
     }
+    ism::expect(!chosen.empty(), "number of an object", "one that a class has", k);
     std::erase_if(set.images, [&](const ism::DatasetImage& image) {
         return chosen.contains(object_of(image)) != this_one;
     });
