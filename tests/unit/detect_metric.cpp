@@ -128,7 +128,7 @@ TEST_CASE("votes, colours and shapes judge regions: mask, class, position and re
         CHECK(d.probability == Approx(d.score / (1 + d.score)));
         REQUIRE(d.reasons);
         CHECK(model.shapes.objects.at(*d.reasons->color_object).class_index == d.class_index);
-        CHECK(model.shapes.objects.at(d.reasons->shape_object).class_index == d.class_index);
+        CHECK(model.shapes.objects.at(*d.reasons->shape_object).class_index == d.class_index);
         CHECK(d.reasons->votes > 0);
     }
     CHECK(found[0].class_index != found[1].class_index);
