@@ -15,6 +15,7 @@
 #include "ism/dataset/read_images.hpp"
 #include "ism/dataset/to_results.hpp"
 #include "ism/detect/frame_matcher.hpp"
+#include "ism/evaluate/table.hpp"
 
 namespace reproduce {
 
@@ -96,6 +97,13 @@ program::SearchOptions votes_alone(std::string_view space) {
     program::SearchOptions search;
     search.space = space, search.rescorer = "none", search.verifier = "mdl", search.segmenter = "patches";
     return search;
+}
+
+void add_table(ism::ReportSection& section, ism::ReportTable table) {
+    std::vector<std::vector<std::string>> rows{table.header};
+    rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+    std::printf("\n%s\n%s\n", table.caption.c_str(), ism::align_columns(rows).c_str());
+    section.parts.push_back(std::move(table));
 }
 
 void Times::add(std::string what) {

@@ -14,6 +14,7 @@
 #include "ism/dataset/dataset.hpp"
 #include "ism/evaluate/evaluate.hpp"
 #include "ism/model/model.hpp"
+#include "ism/show/report.hpp"
 #include "ism/train/training_features.hpp"
 
 namespace reproduce {
@@ -21,7 +22,8 @@ namespace reproduce {
 /// How much is done with which data.
 struct Settings {
     std::filesystem::path data, folder = "ism-reproduce";
-    bool quick = false;  ///< a few images of each set
+    bool quick = false;        ///< a few images of each set
+    bool depth_alone = false;  ///< only the experiments on depth
     unsigned threads = 0;
 };
 
@@ -51,7 +53,10 @@ struct Outcome {
                                           const ism::EvaluateOptions& rule, unsigned threads);
 
 /// The paper's own way: votes alone, verified by minimum description length.
-[[nodiscard]] program::SearchOptions votes_alone(std::string_view space = program::default_space);
+[[nodiscard]] program::SearchOptions votes_alone(std::string_view space = "jism");
+
+/// Adds a table that is also printed.
+void add_table(ism::ReportSection& section, ism::ReportTable table);
 
 /// How long each part took.
 class Times {

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 
-// reproduce DATA [-o FOLDER] [--threads N] [--quick]: the experiments of the paper (Zhang and Kjellström,
-// "Multi-Class Detection and Segmentation of Objects in Depth") on the public sets in the folder DATA, and a
-// page FOLDER/report.html that shows them beside the paper's figures.
+// reproduce DATA [-o FOLDER] [--threads N] [--quick] [--depth]: the experiments of the paper (Zhang and
+// Kjellström, "Multi-Class Detection and Segmentation of Objects in Depth") on the public sets in the folder
+// DATA, and a page FOLDER/report.html that shows them beside the paper's figures; --depth: those on depth
+// alone.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -15,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "depth.hpp"
 #include "experiment.hpp"
 #include "learning.hpp"
 
@@ -36,14 +38,6 @@ struct PaperFigures {
 };
 constexpr std::array<PaperFigures, 3> paper_separate = {{{.85, 7825}, {.81, 4777}, {.83, 2748}}};
 constexpr std::array<PaperFigures, 3> paper_joint = {{{.81, 6949}, {.88, 4578}, {.83, 2680}}};
-
-/// A table that is also printed.
-void add_table(ism::ReportSection& section, ism::ReportTable table) {
-    std::vector<std::vector<std::string>> rows{table.header};
-    rows.insert(rows.end(), table.rows.begin(), table.rows.end());
-    std::printf("\n%s\n%s\n", table.caption.c_str(), ism::align_columns(rows).c_str());
-    section.parts.push_back(std::move(table));
-}
 
 std::string share_text(double share) {
     return ism::percent_text(share) + " %";
@@ -141,7 +135,7 @@ ism::ReportSection precision_recall(const Settings& settings, Times& times, cons
     const ism::TrainOptions options{.threads = settings.threads};
     const ism::Model model = program::learn_templates(program::learn(features, options), features, options);
     times.add(name + ": learning");
-    const std::array ways{votes_alone(), program::SearchOptions{.min_score = 0}};
+    const std::array ways{votes_alone(), program::SearchOptions{.space = "jism", .min_score = 0}};
     const auto found = search(model, images.test, ways, rule, settings.threads);
     times.add(name + ": searching");
     ism::Plot plot{.title = name, .x_label = "recall", .y_label = "precision"};
@@ -164,43 +158,8 @@ ism::ReportSection precision_recall(const Settings& settings, Times& times, cons
     return section;
 }
 
-/// The five vote spaces on tables with depth.
-ism::ReportSection vote_spaces(const Settings& settings, Times& times) {
-    const Images images = read_images(settings, "osd", "val");
-    const auto features = extract(images.train, program::default_detector, program::default_descriptor, false,
-                                  settings.threads);
-    const ism::Model model =
-        program::learn(features, {.box_classifier = {}, .calibrate = false, .threads = settings.threads});
-    times.add("osd: learning");
-    std::vector<program::SearchOptions> ways;
-    for (const std::string_view space : program::space_names) ways.push_back(votes_alone(space));
-    const auto found = search(model, images.test, ways, {}, settings.threads);
-    times.add("osd: searching in five vote spaces");
-    constexpr std::array paper{"58 %", "–", "62 %", "64 %", "66 %"};
-    ism::ReportTable table{
-        .caption = "osd, means over classes; the paper told how far votes agree, on scenes of its own",
-        .header = {"space", "AP", "EER", "F1", "mask IoU", "ms/image, one thread",
-                   "paper: voting confidence"}};
-    for (std::size_t w = 0; w < ways.size(); ++w) {
-        const ism::Figures& mean = found[w].evaluation.mean;
-        table.rows.push_back({std::string(program::space_names[w])});
-        for (const double figure : {mean.ap, mean.eer, mean.best_f1, mean.mask_iou})
-            table.rows.back().push_back(share_text(figure));
-        table.rows.back().push_back(ism::fixed_text(found[w].ms_per_image, 0));
-        table.rows.back().emplace_back(paper[w]);
-    }
-    ism::ReportSection section{.title = "Depth in the vote space"};
-    section.parts.push_back(
-        ism::ReportText{"Cluttered tables, 640×480, colour and depth, votes alone. Depth beyond the table "
-                        "was removed by the authors of the "
-                        "set, which helps the spaces with depth: features there cast no vote."});
-    add_table(section, std::move(table));
-    return section;
-}
-
-void run(const Settings& settings) {
-    Times times;
-    ism::Report report{.title = "The experiments of the paper"};
+/// Classes told apart, and objects of one class found, by colour.
+void add_colour_experiments(ism::Report& report, const Settings& settings, Times& times) {
     report.sections.push_back(multi_class(settings, times));
     report.sections.push_back(
         precision_recall(settings, times, "uiuc-cars", "test", {.rule = ism::EvaluateOptions::Rule::uiuc},
@@ -211,7 +170,14 @@ void run(const Settings& settings) {
         precision_recall(settings, times, "weizmann-horses", "val", {},
                          "Horses, one an image, IoU of boxes at least .5. Published on other "
                          "parts of the set: EER 91.4 to 93.9 % by Hough forests."));
-    report.sections.push_back(vote_spaces(settings, times));
+}
+
+void run(const Settings& settings) {
+    Times times;
+    ism::Report report{.title = "The experiments of the paper"};
+    if (!settings.depth_alone) add_colour_experiments(report, settings, times);
+    for (ism::ReportSection& section : depth_experiments(settings, times))
+        report.sections.push_back(std::move(section));
     ism::ReportTable seconds{.caption = "Seconds", .header = {"part", "s"}};
     double all = 0;
     for (const auto& [part, took] : times.seconds())
@@ -235,6 +201,8 @@ Settings settings_from(std::vector<std::string> words) {
         };
         if (word == "--quick") {
             settings.quick = true;
+        } else if (word == "--depth") {
+            settings.depth_alone = true;
         } else if (word == "-o") {
             settings.folder = value();
         } else if (word == "--threads") {
@@ -244,7 +212,7 @@ Settings settings_from(std::vector<std::string> words) {
                         "a whole number", text);
         } else {
             ism::expect(settings.data.empty() && !word.starts_with("-"), "option",
-                        "DATA [-o FOLDER] [--threads N] [--quick]", word);
+                        "DATA [-o FOLDER] [--threads N] [--quick] [--depth]", word);
             settings.data = word;
         }
     }

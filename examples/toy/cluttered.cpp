@@ -66,7 +66,9 @@ ToyScene render_cluttered(std::uint64_t scene_seed, const ClutterOptions& clutte
         const std::size_t class_index =
             i % 2 == 0 ? 0 : 1 + std::size_t(first_class + i / 2) % (class_names().size() - 1);
         // Toy after toy from a random one on, so that none stands there twice while there are enough.
-        const int instance = clutter.first_instance + (first_instance + i) % clutter.instances;
+        const int instance = class_index == 0 && !clutter.cars.empty()
+                                 ? clutter.cars[std::size_t(first_instance + i / 2) % clutter.cars.size()]
+                                 : clutter.first_instance + (first_instance + i) % clutter.instances;
         Placed toy{make_toy(class_index, instance, options.seed), {}, int(labels.size())};
         for (int attempt = 0; attempt < 60; ++attempt) {
             // The first two stand near and far, the others anywhere between.

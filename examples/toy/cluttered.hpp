@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "toy/scene.hpp"
 
@@ -13,7 +14,8 @@ struct ClutterOptions {
     int least_toys = 4, most_toys = 7;
     int least_things = 11, most_things = 17;  ///< of no class
     int first_instance = 0,
-        instances = 12;  ///< toys are instances first … first + instances − 1 of their class
+        instances = 12;          ///< toys are instances first … first + instances − 1 of their class
+    std::vector<int> cars = {};  ///< cars are these instances instead; none = as other toys
     double near_m = 0.62, far_m = 1.4;  ///< distances of toys from the camera
     double occluder_share = 0.4;        ///< of toys that get something small put before them
     double least_visible = 0.3;         ///< toys of which less is seen are taken off the table

@@ -38,7 +38,8 @@ ism::DatasetImage write_picture(const std::filesystem::path& folder, const std::
     for (const ToyObject& object : scene.objects)
         image.objects.push_back({.class_index = std::uint32_t(object.class_index),
                                  .box = object.box,
-                                 .segmentation = ism::compress_mask(object.mask)});
+                                 .segmentation = ism::compress_mask(object.mask),
+                                 .position_m = object.position_m});
     return image;
 }
 
@@ -58,8 +59,6 @@ ism::Dataset write_truth(const std::filesystem::path& file, std::vector<ism::Dat
     for (const auto& objects : truth)
         for (const ToyObject& object : objects) {
             nlohmann::json& record = root["annotations"].at(next++);
-            const auto& p = object.position_m;
-            record["position_m"] = {p.x, p.y, p.z};
             record["visible"] = object.visible;
             record["instance"] = object.instance;
         }

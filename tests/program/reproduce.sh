@@ -13,12 +13,12 @@ if [[ ! -d $data ]]; then
     exit 77
 fi
 "$reproduce" "$data" -o page --quick --threads 2 >figures.txt
-for line in '^separate +2 .* 2748$' '^joint +1 .* 4578$' '^ji3sm3 .* 66 %$' '^votes and templates \(default\) +[0-9.]+ %'; do
+for line in '^separate +2 .* 2748$' '^joint +1 .* 4578$' '^ji3sm3 .* 66 % ' '^votes and templates \(default\) +[0-9.]+ %'; do
     grep -qE "$line" figures.txt || fail "reproduce: expected a line like $line, got: $(cat figures.txt)"
 done
 for text in "<title>The experiments of the paper</title>" "separate, T_Q = 0" "joint, T_Q = 2" "uiuc-cars" "weizmann-horses" \
-    "Depth in the vote space" "Seconds"; do
+    "Depth in the vote space" "Toy cars (rendered)" "The car between two cars" "Worse pictures" "Seconds"; do
     says "$text" page/report.html
 done
-(($(grep -o '<svg xmlns' page/report.html | wc -l) == 9)) || fail "the page: expected 9 plots"
+(($(grep -o '<svg xmlns' page/report.html | wc -l) == 16)) || fail "the page: expected 16 plots"
 ! grep -qE '(src|href)="[^d]' page/report.html || fail "the page needs other files"

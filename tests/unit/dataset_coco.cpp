@@ -68,7 +68,7 @@ TEST_CASE("A data set with everything in it is read") {
             {"id":11,"image_id":1,"category_id":7,"bbox":[0,0,2,2],"segmentation":{"size":[3,4],"counts":"129"}},
             {"id":12,"image_id":1,"category_id":7,"segmentation":{"size":[3,4],"counts":[4,2,6]}},
             {"id":13,"image_id":1,"category_id":3,"segmentation":[[1,1,3,1,3,3,1,3],[0,0,1,0,1,1,0,1]]},
-            {"id":14,"image_id":1,"category_id":3,"bbox":[0,0,2,2],"segmentation":[],"iscrowd":false}]})");
+            {"id":14,"image_id":1,"category_id":3,"bbox":[0,0,2,2],"segmentation":[],"iscrowd":false,"position_m":[0.1,-0.2,1]}]})");
     CHECK(dataset.source == folder / "a.json");
     CHECK(dataset.class_names == std::vector<std::string>{"cup", "car"});
     CHECK(dataset.category_ids == std::vector<std::int64_t>{7, 3});
@@ -99,6 +99,7 @@ TEST_CASE("A data set with everything in it is read") {
           Mask(4, 3, std::vector<std::uint8_t>{1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0}));
     CHECK(a.objects[2].box == Box{0, 0, 3, 3});
     CHECK((ism::read_mask(a, a.objects[3]).empty() && !a.objects[3].crowd));
+    CHECK((a.objects[3].position_m == ism::Point3{0.1, -0.2, 1} && !a.objects[2].position_m));
 }
 
 TEST_CASE("A data set that is none is refused with the place") {
@@ -172,6 +173,10 @@ TEST_CASE("An annotation that makes no sense is refused with the place") {
         own + "id: expected each id once, got it twice");
     CHECK(read_error(annotation("")) ==
           at + "bbox: expected a box, or a segmentation to take it from, got neither");
+    CHECK(read_error(annotation(box + R"(,"position_m":[1,2,-3])")) ==
+          at + "position_m: expected a place before the camera, z above 0, got an array of 3");
+    CHECK(read_error(annotation(box + R"(,"position_m":[1,2])")) ==
+          at + "position_m: expected three numbers x, y, z, got an array of 2");
     CHECK(read_error(annotation(R"(,"bbox":[1,2,3])")) ==
           at + "bbox: expected four numbers x, y, width, height, got an array of 3");
     CHECK(read_error(annotation(R"(,"bbox":[1,2,-3,4])")) ==
@@ -308,7 +313,11 @@ TEST_CASE("A data set that is written comes back equal, in the same bytes every 
                       {.id = 2, .file = folder / "labels/b.png", .width = 30, .height = 20}};
     dataset.images[0].objects = {
         {.id = 3, .class_index = 1, .box = {3, 4, 2, 2}, .segmentation = ism::compress_mask(mask)},
-        {.id = 1, .class_index = 0, .box = {-1.25, 0.1, 3, 1.0 / 3}, .crowd = true},
+        {.id = 1,
+         .class_index = 0,
+         .box = {-1.25, 0.1, 3, 1.0 / 3},
+         .crowd = true,
+         .position_m = ism::Point3{0.3, -1.0 / 3, 1.25}},
         {.id = 2,
          .class_index = 0,
          .box = {1, 1, 4, 4},

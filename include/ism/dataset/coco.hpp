@@ -124,6 +124,12 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
             annotation.instance = instance->is_number() ? join_text(to_integer(*instance, "instance", place))
                                                         : to_text(*instance, "instance", place);
         read_outline(record, image, place, annotation);
+        if (const Json* position = optional_member(record, "position_m", place)) {
+            annotation.position_m = position_from_json(*position, place);
+            if (!(annotation.position_m->z > 0))
+                refuse_json(place, "position_m", "a place before the camera, z above 0",
+                            json_text(*position));
+        }
         image.objects.push_back(std::move(annotation));
     }
     return dataset;
@@ -133,11 +139,12 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
 
 /// @brief Reads a data set in COCO's JSON: images, categories, annotations with bbox, segmentation (run
 /// lengths as text or array, or polygons), iscrowd, and instance (a text or number that names the thing). Per
-/// image also depth_file_name, depth_scale (metres per unit) and camera {fx, fy, cx, cy}. File names count
-/// from the JSON's folder. A missing bbox is taken from the segmentation. Images are not opened yet.
+/// image also depth_file_name, depth_scale (metres per unit) and camera {fx, fy, cx, cy}, per annotation
+/// position_m [x, y, z]. File names count from the JSON's folder. A missing bbox is taken from the
+/// segmentation. Images are not opened yet.
 /// @throws FileError, naming the file, the image and the annotation, where the file cannot be read, is no
 /// JSON (with line and column), lacks a key, repeats an id, names an unknown image or category, or a box
-/// (see check_labelled_box()), mask size, depth scale or camera makes no sense.
+/// (see check_labelled_box()), mask size, depth scale, camera or position makes no sense.
 [[nodiscard]] inline Dataset read_dataset(const std::filesystem::path& path) {
     return detail::dataset_from_json(detail::read_json(path), path);
 }

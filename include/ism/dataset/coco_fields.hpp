@@ -33,6 +33,18 @@ namespace ism::detail {
     return {number_json(box.x), number_json(box.y), number_json(box.width), number_json(box.height)};
 }
 
+/// @brief [x, y, z], metres in the camera frame.
+[[nodiscard]] inline Point3 position_from_json(const Json& value, const std::string& place) {
+    if (!value.is_array() || value.size() != 3)
+        refuse_json(place, "position_m", "three numbers x, y, z", json_text(value));
+    const auto coordinate = [&](std::size_t i) { return to_number(value[i], "position_m", place); };
+    return {coordinate(0), coordinate(1), coordinate(2)};
+}
+
+[[nodiscard]] inline Json position_to_json(const Point3& position) {
+    return {position.x, position.y, position.z};
+}
+
 /// @brief {"size": [height, width], "counts": text or array}.
 [[nodiscard]] inline CompressedRle rle_from_json(const Json& value, const std::string& place) {
     const std::string_view what = "segmentation";

@@ -53,12 +53,8 @@ namespace detail {
         result.box = mask_box(decompress_mask(*result.segmentation));
         if (!(result.box.area() > 0)) refuse_json(place, "segmentation", "at least one figure pixel", "none");
     }
-    if (const Json* position = optional_member(record, "position_m", place)) {
-        if (!position->is_array() || position->size() != 3)
-            refuse_json(place, "position_m", "three numbers x, y, z", json_text(*position));
-        const auto coordinate = [&](std::size_t i) { return to_number((*position)[i], "position_m", place); };
-        result.position_m = Point3{coordinate(0), coordinate(1), coordinate(2)};
-    }
+    if (const Json* position = optional_member(record, "position_m", place))
+        result.position_m = position_from_json(*position, place);
     if (const Json* depth = optional_member(record, "depth_m", place)) {
         result.depth_m = to_number(*depth, "depth_m", place);
         if (!is_depth(result.depth_m)) refuse_json(place, "depth_m", "metres above 0", json_text(*depth));
@@ -84,8 +80,7 @@ namespace detail {
     record["depth_m"] = std::isnan(result.depth_m) ? Json(nullptr) : Json(result.depth_m);
     if (!std::isnan(result.probability)) record["probability"] = result.probability;
     if (result.segmentation) record["segmentation"] = rle_to_json(*result.segmentation);
-    if (result.position_m)
-        record["position_m"] = {result.position_m->x, result.position_m->y, result.position_m->z};
+    if (result.position_m) record["position_m"] = position_to_json(*result.position_m);
     return record;
 }
 

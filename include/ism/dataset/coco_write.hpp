@@ -45,6 +45,7 @@ namespace detail {
     else if (const auto* polygons = std::get_if<std::vector<Polygon>>(&annotation.segmentation))
         record["segmentation"] = polygons_to_json(*polygons);
     if (!annotation.instance.empty()) record["instance"] = annotation.instance;
+    if (annotation.position_m) record["position_m"] = position_to_json(*annotation.position_m);
     return record;
 }
 

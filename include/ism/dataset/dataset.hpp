@@ -36,6 +36,7 @@ struct DatasetAnnotation {
     MaskSource segmentation = {};
     std::string instance =
         {};  ///< which thing of the class it is, where that is known: the same in each image
+    std::optional<Point3> position_m = {};  ///< of its middle in the camera frame, where it was measured
     [[nodiscard]] bool operator==(const DatasetAnnotation&) const = default;
 };
 

@@ -53,7 +53,8 @@ namespace ism {
             training.objects.push_back({.class_index = object.class_index,
                                         .box = object.box,
                                         .mask = read_mask(image, object),
-                                        .instance = object.instance});
+                                        .instance = object.instance,
+                                        .position_m = object.position_m});
     return training;
 }
 

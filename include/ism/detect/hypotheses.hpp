@@ -35,12 +35,24 @@ namespace ism {
 /// @brief How votes of a window become a hypothesis.
 using DescribeHypothesis = Detection(double score, std::vector<Support> window, const Scene& scene);
 
-/// @brief Tells from the votes of a window what the object would be: the class of the most weight, and by its
-/// votes centre, scale, angle, box, depth and position. They stay as the detection's support.
-/// @param window  Support::weight is the vote's weight times the kernel's
-[[nodiscard]] inline Detection describe_hypothesis(double score, std::vector<Support> window,
-                                                   const Scene& scene) {
+namespace detail {
+
+/// Where the object of a vote lies: by the scale of its feature, or at a depth, as large as in training.
+[[nodiscard]] inline Placement placed_by(const Feature& f, const Occurrence& o, const TrainingObject& object,
+                                         const Camera* camera, double depth_m) {
+    Placement placed = placement(f, o);
+    if (camera == nullptr || !is_depth(depth_m) || !(object.size_m > 0)) return placed;
+    placed.centre = {0, 0};
+    placed.scale = object.size_m * camera->fx / depth_m / reference_size_px;
+    const Point2 offset = to_image(placed, {o.x, o.y});
+    placed.centre = {f.x - offset.x, f.y - offset.y};
+    return placed;
+}
+
+[[nodiscard]] inline Detection describe_votes(double score, std::vector<Support> window, const Scene& scene,
+                                              bool by_depth) {
     const ShapeModel& shapes = scene.model.shapes;
+    const Camera* const camera = scene.frame.camera ? &*scene.frame.camera : nullptr;
     std::vector<double> of_class(shapes.class_names.size(), 0);
     for (const Support& s : window) of_class[shapes.occurrence(s.occurrence).class_index] += s.weight;
     Detection result;
@@ -51,13 +63,19 @@ using DescribeHypothesis = Detection(double score, std::vector<Support> window, 
         return shapes.occurrence(s.occurrence).class_index != result.class_index;
     });
 
-    double total = 0, x = 0, y = 0, scale = 0, width = 0, height = 0, cosine = 0, sine = 0;
     std::vector<std::pair<double, double>> depths;
     for (const Support& s : window) {
         const Feature& f = scene.features[s.feature];
+        if (is_depth(f.depth_m))
+            depths.emplace_back(centre_depth_m(f, shapes.occurrence(s.occurrence)), s.weight);
+    }
+    result.depth_m = weighted_median(std::move(depths));
+    double total = 0, x = 0, y = 0, scale = 0, width = 0, height = 0, cosine = 0, sine = 0;
+    for (const Support& s : window) {
         const Occurrence& o = shapes.occurrence(s.occurrence);
         const TrainingObject& object = shapes.objects[o.object];
-        const Placement placed = placement(f, o);
+        const Placement placed =
+            placed_by(scene.features[s.feature], o, object, camera, by_depth ? result.depth_m : no_depth);
         const Box box = placed_box(placed, object.width, object.height);
         total += s.weight;
         x += s.weight * placed.centre.x;
@@ -67,29 +85,52 @@ using DescribeHypothesis = Detection(double score, std::vector<Support> window, 
         sine += s.weight * std::sin(placed.angle);
         width += s.weight * box.width;
         height += s.weight * box.height;
-        if (is_depth(f.depth_m))
-            depths.emplace_back(f.depth_m - (std::isfinite(o.depth_m) ? o.depth_m : 0), s.weight);
     }
     result.centre = {x / total, y / total};
     result.scale = scale / total;
     result.angle = std::atan2(sine, cosine);
     result.box = box_around(result.centre, width / total, height / total);
-    result.depth_m = weighted_median(std::move(depths));
-    if (scene.frame.camera && is_depth(result.depth_m))
-        result.position_m = back_project(*scene.frame.camera, result.centre, result.depth_m);
-    detail::sort_by(window, [](const Support& s) { return detail::falling(s.weight); });
+    if (camera != nullptr && is_depth(result.depth_m))
+        result.position_m = back_project(*camera, result.centre, result.depth_m);
+    sort_by(window, [](const Support& s) { return falling(s.weight); });
     result.support = std::move(window);
     return result;
+}
+
+}  // namespace detail
+
+/// @brief Tells from the votes of a window what the object would be: the class of the most weight, and by its
+/// votes centre, scale, angle, box, depth and position. They stay as the detection's support.
+/// @param window  Support::weight is the vote's weight times the kernel's
+[[nodiscard]] inline Detection describe_hypothesis(double score, std::vector<Support> window,
+                                                   const Scene& scene) {
+    return detail::describe_votes(score, std::move(window), scene, false);
+}
+
+/// @brief The same in a space with depth, where camera, depth and the sizes of training objects in metres
+/// tell the scale better than features do: each vote's object is placed at the depth of the hypothesis.
+[[nodiscard]] inline Detection describe_hypothesis_at_depth(double score, std::vector<Support> window,
+                                                            const Scene& scene) {
+    return detail::describe_votes(score, std::move(window), scene, true);
 }
 
 /// @brief The same of votes in a space with poses: in ism/detect/posed_hypothesis.hpp.
 [[nodiscard]] inline Detection describe_posed_hypothesis(double score, std::vector<Support> window,
                                                          const Scene& scene);
 
+/// @brief How hypotheses of a vote space are told.
+template <VoteSpaceType Space>
+[[nodiscard]] constexpr DescribeHypothesis* describe_in() {
+    if constexpr (Space::needs_pose)
+        return describe_posed_hypothesis;
+    else
+        return Space::needs_depth ? describe_hypothesis_at_depth : describe_hypothesis;
+}
+
 /// @brief The places where votes agree, strongest first over all labels, at most
 /// DetectOptions::max_candidates, each told as a detection without segmentation.
 /// @param votes     as cast_votes() gives them: by rising label
-/// @param describe  describe_hypothesis() or describe_posed_hypothesis()
+/// @param describe  as describe_in() gives it
 template <Kernel K, std::size_t Dimension>
 [[nodiscard]] std::vector<Detection> find_hypotheses(const Scene& scene,
                                                      const std::vector<Vote<Dimension>>& votes,

@@ -122,10 +122,8 @@ template <VoteSpaceType Space, Kernel K, Rescorer R, Segmenter S, Verifier V>
     if constexpr (Space::needs_pose) add_surface(scene);
     const DetectOptions& options = recognition.options;
     const auto votes = cast_votes<Space>(scene, options.matching, vote_limits(scene, options));
-    DescribeHypothesis* describe = describe_hypothesis;
-    if constexpr (Space::needs_pose) describe = describe_posed_hypothesis;
-    auto hypotheses =
-        find_hypotheses<K, Space::dimension>(scene, votes, recognition.bandwidth, options, describe);
+    auto hypotheses = find_hypotheses<K, Space::dimension>(scene, votes, recognition.bandwidth, options,
+                                                           describe_in<Space>());
     stats.votes = votes.size();
     stats.hypotheses = hypotheses.size();
     stats.vote_ms = watch.lap_ms();

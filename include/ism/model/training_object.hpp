@@ -24,8 +24,8 @@ struct TrainingObject {
     Mask mask = {};               ///< the box in cells of mask_cell_px: share of figure, 0 … 255
     std::string image = {};       ///< name of the training image, to tell why something was found
     float size_m = 0;             ///< root of its box's area as a length at centre_m; 0 = not known
-    Vec3f centre_m = {};  ///< in the camera frame of its image: the box's centre at the mask's median depth;
-                          ///< (0, 0, 0) = not known
+    Vec3f centre_m = {};  ///< in the camera frame of its image, as its label tells it, else the box's centre
+                          ///< at the mask's median depth; (0, 0, 0) = not known
     std::vector<Vec3f> points_m = {};  ///< of its surface, as far as it was seen, from its centre_m
 };
 

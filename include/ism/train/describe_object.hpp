@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "ism/core/frame.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/order.hpp"
+#include "ism/core/vec3.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/model/occurrence.hpp"
 #include "ism/model/training_object.hpp"
@@ -79,6 +81,19 @@ namespace ism {
     const auto middle = readings.begin() + std::ptrdiff_t(readings.size() / 2);
     std::nth_element(readings.begin(), middle, readings.end());
     return *middle;
+}
+
+/// @brief Tells where an object lies in the camera frame and how large it is; unchanged where neither its
+/// position nor its depth is known.
+/// @param position_m  of its middle, where the label tells it
+/// @param depth_m     else the depth at which the ray through the middle of its box ends
+[[nodiscard]] inline TrainingObject placed_in_space(TrainingObject object, const Box& box,
+                                                    const std::optional<Point3>& position_m, double depth_m,
+                                                    const Camera& camera) {
+    if (!position_m && !is_depth(depth_m)) return object;
+    object.centre_m = to_vec3f(position_m ? *position_m : back_project(camera, box.centre(), depth_m));
+    object.size_m = static_cast<float>(std::sqrt(box.area()) * object.centre_m.z / camera.fx);
+    return object;
 }
 
 /// @brief Indices of the features on a mask, in order.

@@ -70,6 +70,7 @@ private:
     for (const LabelledObject& object : image.objects) {
         depth.masks.push_back(region_of(object_mask(object, frame.gray.width(), frame.gray.height())));
         depth.instances.push_back(object.instance);
+        depth.positions_m.push_back(object.position_m);
     }
     return depth;
 }
@@ -83,7 +84,9 @@ private:
         result.samples.push_back({{}, Descriptors<float>(channel.descriptors.dimension())});
     for (const LabelledObject& object : image.objects) {
         const Mask mask = object_mask(object, view.width, view.height);
-        const float depth_m = image.frame.depth_m.empty() ? no_depth : object_depth(image.frame, mask);
+        const float depth_m = object.position_m             ? static_cast<float>(object.position_m->z)
+                              : image.frame.depth_m.empty() ? no_depth
+                                                            : object_depth(image.frame, mask);
         const Placement lies{object.box.centre(), std::sqrt(object.box.area()) / reference_size_px, 0};
         for (std::size_t c = 0; c < view.channels.size(); ++c) {
             const auto& [features, descriptors] = view.channels[c];
@@ -101,6 +104,9 @@ private:
             }
         }
         result.objects.push_back(describe_object(object.label(), mask, image.name));
+        if (image.frame.camera)
+            result.objects.back() = placed_in_space(std::move(result.objects.back()), object.box,
+                                                    object.position_m, depth_m, *image.frame.camera);
     }
     return result;
 }

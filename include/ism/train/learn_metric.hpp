@@ -43,7 +43,8 @@ struct MetricWords {
     MetricWords words;
     for (std::size_t i = 0; i < view.labels.size(); ++i)
         words.objects.push_back(
-            with_points(all.objects[view.first_object + i], view.labels[i].box, depth.masks[i], surface));
+            with_points(all.objects[view.first_object + i], view.labels[i].box, depth.masks[i],
+                        depth.positions_m.empty() ? std::nullopt : depth.positions_m[i], surface));
     const auto under = masks_under(features, depth.masks);
     for (std::size_t f = 0; f < features.size(); ++f) {
         words.occurrences.emplace_back();

@@ -32,8 +32,9 @@ struct TrainingSamples {
 struct TrainingDepth {
     DepthMap depth_m = {};
     Camera camera = {};
-    std::vector<RegionMask> masks = {};       ///< of the labelled objects
-    std::vector<std::string> instances = {};  ///< theirs; empty texts where not known
+    std::vector<RegionMask> masks = {};                   ///< of the labelled objects
+    std::vector<std::string> instances = {};              ///< theirs; empty texts where not known
+    std::vector<std::optional<Point3>> positions_m = {};  ///< theirs, where labels tell them; empty = nowhere
 };
 
 /// @brief All features of a training image or of its mirror image, beside the objects too.

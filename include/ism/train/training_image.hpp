@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,9 @@ struct LabelledObject {
     Box box;                        ///< pixels
     Mask mask = {};                 ///< of the image's size; empty: the box is the mask
     std::string instance = {};      ///< which thing of the class it is; empty = not known
+    /// Of its middle in the camera frame; none: where the ray through the middle of its box meets the median
+    /// depth of its mask. Votes for positions in space tell the place that they were taught.
+    std::optional<Point3> position_m = {};
 
     [[nodiscard]] ObjectLabel label() const { return {class_index, box}; }
 };
@@ -55,6 +59,8 @@ inline void check(const TrainingImage& image, std::size_t classes) {
         check(image.frame);
         for (const LabelledObject& object : image.objects) {
             check(object.label(), classes, gray.width(), gray.height());
+            expect(!object.position_m || object.position_m->z > 0, "position of an object",
+                   "before the camera, z above 0", object.position_m ? object.position_m->z : 0);
             if (object.mask.empty()) continue;
             expect(object.mask.width() == gray.width() && object.mask.height() == gray.height(), "mask size",
                    size_text(gray), size_text(object.mask));
@@ -76,6 +82,7 @@ inline void check(const TrainingImage& image, std::size_t classes) {
     for (LabelledObject& object : image.objects) {
         object.box.x = width - object.box.x - object.box.width;
         object.mask = mirrored(std::move(object.mask));
+        if (object.position_m) object.position_m->x *= -1;
     }
     return image;
 }

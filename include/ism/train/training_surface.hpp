@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ism/core/random.hpp"
@@ -19,6 +20,7 @@
 #include "ism/detect/surface_scene.hpp"
 #include "ism/model/occurrence_frame.hpp"
 #include "ism/model/training_object.hpp"
+#include "ism/train/describe_object.hpp"
 #include "ism/train/training_features.hpp"
 
 namespace ism {
@@ -28,7 +30,9 @@ inline constexpr std::size_t max_object_points = 150;
 
 /// @brief Adds to a training object where it lies in the camera frame, how large it is and points of its
 /// surface; unchanged where the mask has no readings.
+/// @param position_m  of its middle, where the label tells it
 [[nodiscard]] inline TrainingObject with_points(TrainingObject object, const Box& box, const RegionMask& mask,
+                                                const std::optional<Point3>& position_m,
                                                 const Surface& surface) {
     std::vector<Vec3f> points;
     for (int j = 0; j < mask.mask.height(); ++j)
@@ -40,8 +44,7 @@ inline constexpr std::size_t max_object_points = 150;
     for (const Vec3f& point : points) depths.push_back(point.z);
     const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
     std::nth_element(depths.begin(), middle, depths.end());
-    object.centre_m = to_vec3f(back_project(surface.camera, box.centre(), *middle));
-    object.size_m = static_cast<float>(std::sqrt(box.area()) * double(*middle) / surface.camera.fx);
+    object = placed_in_space(std::move(object), box, position_m, *middle, surface.camera);
     Random random(1);
     for (std::size_t i = 0; i < std::min(max_object_points, points.size()); ++i) {
         std::swap(points[i], points[i + random.index(points.size() - i)]);

@@ -67,23 +67,26 @@ struct Scale {
     [[nodiscard]] static double vote(const VoteSource& v) { return v.placement.scale; }
 };
 
-/// @brief d_f (Eqs 6 and 7): depth of the feature in the image, metres. Without a reading there is no vote.
+/// @brief d_f (Eqs 6 and 7): depth of the feature in the image, or of the object's centre where training
+/// knows how they differ (centre_depth_m()), metres. Without a reading there is no vote.
 struct Depth {
     static constexpr std::string_view name = "d", unit = "m";
     static constexpr double bandwidth = 0.15;
     static constexpr BandwidthScaling bandwidth_scaling = BandwidthScaling::none;
     static constexpr bool needs_depth = true;
-    [[nodiscard]] static double vote(const VoteSource& v) { return v.feature.depth_m; }
+    [[nodiscard]] static double vote(const VoteSource& v) { return centre_depth_m(v.feature, v.occurrence); }
 };
 
-/// @brief d_f · s_f / s_i (Eq 8): depth times scale, the same for an object at any distance, metres. Without
-/// a reading there is no vote.
+/// @brief d_f · s_f / s_i (Eq 8): depth, as of Depth, times scale, the same for an object at any distance,
+/// metres. Without a reading there is no vote.
 struct ScaledDepth {
     static constexpr std::string_view name = "s*d", unit = "m";
-    static constexpr double bandwidth = 0.15;
+    static constexpr double bandwidth = 0.2;
     static constexpr BandwidthScaling bandwidth_scaling = BandwidthScaling::none;
     static constexpr bool needs_depth = true;
-    [[nodiscard]] static double vote(const VoteSource& v) { return v.feature.depth_m * v.placement.scale; }
+    [[nodiscard]] static double vote(const VoteSource& v) {
+        return centre_depth_m(v.feature, v.occurrence) * v.placement.scale;
+    }
 };
 
 /// @brief c_i (Eqs 5 to 8): the class of the occurrence.

@@ -16,6 +16,7 @@
 #include "ism/core/error.hpp"
 #include "ism/core/order.hpp"
 #include "ism/model/shape_model.hpp"
+#include "ism/vote/placement.hpp"
 #include "ism/vote/posed_object.hpp"
 #include "ism/vote/vote.hpp"
 #include "ism/vote/vote_space.hpp"
@@ -31,7 +32,8 @@ struct VoteLimits {
     /// Training objects first … end − 1 cast no votes, as if they had not been seen: the other occurrences of
     /// a word have its whole weight.
     std::uint32_t without_first = 0, without_end = 0;
-    /// In a space with poses: by how much a feature may be longer or shorter than that of training.
+    /// In a space with depth: by how much an object may be larger or smaller, in metres, than that of
+    /// training (with poses a feature than that of training).
     double max_size_ratio = 1.5;
 };
 
@@ -66,11 +68,20 @@ template <std::predicate<const Occurrence&> LeftOut>
     return rest > 0 ? all / rest : 0;
 }
 
+/// Whether an object placed so, at a depth, is about as large in metres as the training object; also where
+/// one of the sizes is not known.
+[[nodiscard]] inline bool is_plausible(const Placement& placement, double depth_m,
+                                       const TrainingObject& object, const Camera* camera, double max_ratio) {
+    if (camera == nullptr || !(object.size_m > 0)) return true;
+    const double ratio = placement.scale * reference_size_px * depth_m / camera->fx / object.size_m;
+    return ratio <= max_ratio && ratio >= 1 / max_ratio;
+}
+
 }  // namespace detail
 
 /// @brief Casts the votes of matched features: each through every occurrence of each of its words. Votes
-/// lighter than `min_weight` are dropped, and in a space that needs depth those of features without a
-/// reading, in one with poses those without a local frame.
+/// lighter than `min_weight` are dropped, and in a space that needs depth those of features without a reading
+/// or of objects of another size in metres, in one with poses those without a local frame.
 /// @param camera  of the image; null = not known
 /// @param frames  of the features; only for a space with poses
 /// @return the votes by label, then feature, word and occurrence
@@ -109,6 +120,10 @@ template <VoteSpaceType Space>
                                           limits.max_size_ratio);
                 if (!placed) continue;
                 source.pose = placed->first, source.placement = placed->second;
+            } else if constexpr (Space::needs_depth) {
+                if (!detail::is_plausible(source.placement, centre_depth_m(feature, occurrence),
+                                          source.object, camera, limits.max_size_ratio))
+                    continue;
             }
             const auto& [centre, scale, angle] = source.placement;
             if (scale < limits.min_scale || scale > limits.max_scale) continue;

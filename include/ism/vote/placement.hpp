@@ -40,6 +40,12 @@ namespace detail {
     return {{f.x - offset.x, f.y - offset.y}, scale, angle};
 }
 
+/// @brief Depth of the object's centre when its feature is seen as `f`, metres: d_f − d_i where training
+/// knows d_i, how far behind the centre the feature lies, as the paper proposes below Eq 5; else d_f.
+[[nodiscard]] inline double centre_depth_m(const Feature& f, const Occurrence& o) {
+    return double(f.depth_m) - (std::isfinite(o.depth_m) ? double(o.depth_m) : 0);
+}
+
 /// @brief A pixel of the image in the coordinates of the placed object: pixels at the reference size from its
 /// centre.
 [[nodiscard]] inline Point2 to_object(const Placement& placement, Point2 pixel) {
