@@ -49,7 +49,7 @@ says "templates       yes" info.txt
 says "test-0000.png: missed: " missed.html
 
 # Only what is probable; and the paper's way, votes alone, of a model without templates.
-"$ism" detect --model model-1 --data toys/test.json -o probable --min-score 0.5 >/dev/null
+"$ism" detect --model model-1 --data toys/test.json -o probable --space ji3sm3 --min-score 0.5 >/dev/null
 (($(grep -c image_id probable) <= $(grep -c image_id found-1))) || fail "--min-score tells more"
 "$ism" train --data toys/train.json -o plain --no-templates >/dev/null
 "$ism" info plain >plain.txt

@@ -164,9 +164,9 @@ TEST_CASE("what a model in metres cannot be learnt from is refused by name") {
     lessons = all_lessons();
     for (auto& view : lessons.views) view.depth.reset();
     CHECK_THROWS_WITH(ism::learn_metric(lessons),
-                      Catch::Contains("metric model: training images with depth and camera"));
+                      Catch::Contains("training from depth: images with depth and camera"));
     CHECK_THROWS_WITH(ism::learn_mask_judge(learnt(), lessons),
-                      Catch::Contains("judge of masks: training images with depth and camera"));
+                      Catch::Contains("training from depth: images with depth and camera"));
     lessons.views.clear();
     CHECK_THROWS_AS(ism::learn_metric(lessons), ism::Error);
     lessons = all_lessons();

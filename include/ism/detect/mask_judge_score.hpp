@@ -125,7 +125,7 @@ inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hyp
         const RegionOutline outline = region_outline(*scene.surface, regions[i]);
         for (std::uint32_t c = 0; c < classes; ++c) {
             const MaskCues cues = mask_cues(votes, looks, outline, c);
-            const double logit = judge.logit(cues);
+            const double logit = std::clamp(judge.logit(cues), -300.0, 300.0);  // its odds stay finite
             if (logit < min_logit) continue;
             Detection detection;
             detection.class_index = c;

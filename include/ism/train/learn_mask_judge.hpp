@@ -119,6 +119,32 @@ struct JudgedRegion {
     return judged;
 }
 
+/// The cues of regions for every class, and where they show it.
+struct CueTable {
+    std::vector<MaskCues> cues = {};
+    std::vector<std::uint8_t> right = {};
+
+    /// Regions compared with all examples but begin … end − 1. A class that only these show is left out where
+    /// it is the one shown: nobody could know it.
+    void add(const std::vector<JudgedRegion>& regions, const std::vector<MaskExample>& examples,
+             std::size_t begin, std::size_t end) {
+        for (const JudgedRegion& region : regions) {
+            const std::size_t classes = region.votes.size();
+            const auto looks = look_distances(region.example.look, examples, classes, begin, end);
+            for (std::size_t c = 0; c < classes; ++c) {
+                const bool shown = region.example.class_index == c;
+                if (shown && !looks[c].shape_example) continue;
+                cues.push_back(mask_cues(region.votes, looks, region.outline, c));
+                right.push_back(shown);
+            }
+        }
+    }
+    void append(const CueTable& more) {
+        cues.insert(cues.end(), more.cues.begin(), more.cues.end());
+        right.insert(right.end(), more.right.begin(), more.right.end());
+    }
+};
+
 /// Weights and bias of a logistic regression over cues of mean 0 and deviation 1 (Newton's method).
 /// @param cost  of the errors against half of the squared weights
 inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
@@ -196,11 +222,18 @@ inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
     }
     MaskJudge judge;
     const WordIndex words(model.channels[0].codebook);
-    std::vector<std::vector<detail::JudgedRegion>> regions(views.size());
+    // As the image is seen without itself, and, where others show the same things, without these too: what is
+    // to be judged may be known or not.
+    const auto is_grouped = [&](std::size_t v) { return known.group_end[v] - known.group_first[v] > 1; };
+    std::vector<std::vector<detail::JudgedRegion>> regions(views.size()), regions_alone(views.size());
     ProgressCounter counter(progress, "judging regions of training images", views.size());
     parallel_for(views.size(), threads, [&](std::size_t v) {
-        const WordRange own_words{first_word[known.group_first[v]], first_word[known.group_end[v]]};
-        regions[v] = detail::judged_regions(*views[v], model, words, own_words, judge.shape_bin_m, options);
+        const auto judged = [&](std::size_t begin, std::size_t end) {
+            return detail::judged_regions(*views[v], model, words, {first_word[begin], first_word[end]},
+                                          judge.shape_bin_m, options);
+        };
+        regions[v] = judged(v, v + 1);
+        if (is_grouped(v)) regions_alone[v] = judged(known.group_first[v], known.group_end[v]);
         counter.step();
     });
     std::vector<std::size_t> first{0};  // example of each view
@@ -208,34 +241,17 @@ inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
         for (const detail::JudgedRegion& region : of_view) judge.examples.push_back(region.example);
         first.push_back(judge.examples.size());
     }
-    const std::size_t classes = features.class_names.size();
-    std::vector<std::vector<MaskCues>> cues(views.size());
-    std::vector<std::vector<std::uint8_t>> right(views.size());
-    parallel_for(views.size(), threads, [&](std::size_t v) {
-        const std::size_t without_first = first[known.group_first[v]],
-                          without_end = first[known.group_end[v]];
-        std::vector<bool> seen_elsewhere(classes + 1, false);
-        for (std::size_t e = 0; e < judge.examples.size(); ++e)
-            if (e < without_first || e >= without_end)
-                seen_elsewhere[std::min<std::size_t>(judge.examples[e].class_index, classes)] = true;
-        for (const detail::JudgedRegion& region : regions[v]) {
-            const auto looks =
-                look_distances(region.example.look, judge.examples, classes, without_first, without_end);
-            for (std::size_t c = 0; c < classes; ++c) {
-                if (!seen_elsewhere[c]) continue;  // no one could know it
-                cues[v].push_back(mask_cues(region.votes, looks, region.outline, c));
-                right[v].push_back(region.example.class_index == c);
-            }
-        }
-    });
-    std::vector<MaskCues> all_cues;
-    std::vector<std::uint8_t> all_right;
     expect(!judge.examples.empty(), "judge of masks: regions in images with depth", "1 or more", 0);
-    for (std::size_t v = 0; v < views.size(); ++v) {
-        all_cues.insert(all_cues.end(), cues[v].begin(), cues[v].end());
-        all_right.insert(all_right.end(), right[v].begin(), right[v].end());
-    }
-    detail::fit_mask_weights(judge, all_cues, all_right, options.cost);
+    std::vector<detail::CueTable> tables(views.size());
+    parallel_for(views.size(), threads, [&](std::size_t v) {
+        tables[v].add(regions[v], judge.examples, first[v], first[v + 1]);
+        if (is_grouped(v))
+            tables[v].add(regions_alone[v], judge.examples, first[known.group_first[v]],
+                          first[known.group_end[v]]);
+    });
+    detail::CueTable all;
+    for (const detail::CueTable& table : tables) all.append(table);
+    detail::fit_mask_weights(judge, all.cues, all.right, options.cost);
     model.mask_judge = std::move(judge);
     return model;
 }
