@@ -227,20 +227,21 @@ TEST_CASE("second choices are other classes of the same mask, a little less prob
     CHECK(kept({}, {other_mask, other_class, first, apart}) == Kept{{3, 4}, {2, 2}});
 }
 
-TEST_CASE("a region is a sure segmentation, and stays one") {
+TEST_CASE("the mask of a rescorer is a sure segmentation") {
     ism::RegionMask region{3, 4, ism::Mask(2, 2, 1)};
     region.mask(1, 0) = 0;
     ism::Detection detection;
-    detection.segmentation = ism::sure_segmentation(region);
+    detection.segmentation.x = region.x, detection.segmentation.y = region.y;
+    detection.segmentation.mask = region.mask;
     const ism::Frame frame;
     const ism::Model model;
     ism::ThreadPool pool(1);
-    const ism::Segmentation same =
+    const ism::Segmentation sure =
         ism::KeepSegmentation{}.segment(detection, ism::Scene{.frame = frame, .model = model, .pool = pool});
-    CHECK((same.x == 3 && same.y == 4));
-    CHECK(same.mask == region.mask);
-    CHECK(same.figure(0, 0) == 1);
-    CHECK(same.ground(0, 0) == 0);
-    CHECK(same.figure(1, 0) == 0);
-    CHECK(same.ground(1, 0) == 1);
+    CHECK((sure.x == 3 && sure.y == 4));
+    CHECK(sure.mask == region.mask);
+    CHECK(sure.figure(0, 0) == 1);
+    CHECK(sure.ground(0, 0) == 0);
+    CHECK(sure.figure(1, 0) == 0);
+    CHECK(sure.ground(1, 0) == 1);
 }

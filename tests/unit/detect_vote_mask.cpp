@@ -25,9 +25,11 @@ std::vector<Point2> hull_of(std::vector<Point2> points) {
 /// Row after row, '#' where a pixel is visited.
 std::string filled(const std::vector<Point2>& hull, int width, int height) {
     std::string picture(std::size_t(width) * std::size_t(height), '.');
-    ism::detail::each_pixel_in(hull, width, height, [&](int x, int y) {
-        char& pixel = picture.at(std::size_t(y * width + x));
-        pixel = pixel == '.' ? '#' : '!';  // visited twice
+    ism::detail::each_row_in(hull, width, height, [&](int y, int x0, int x1) {
+        for (int x = x0; x <= x1; ++x) {
+            char& pixel = picture.at(std::size_t(y * width + x));
+            pixel = pixel == '.' ? '#' : '!';  // visited twice
+        }
     });
     return picture;
 }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "ism/core/region_mask.hpp"
 #include "ism/core/vec3.hpp"
@@ -25,33 +26,46 @@ struct RegionOutline {
 /// nothing.
 [[nodiscard]] inline RegionOutline region_outline(const Surface& surface, const RegionMask& region) {
     constexpr float concave = 0.1f;
-    constexpr std::array<std::array<int, 2>, 4> sides{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    const int width = region.mask.width(), height = region.mask.height();
     std::size_t outline = 0, continued = 0, hidden = 0, pairs = 0, broken = 0;
-    for (int j = 0; j < region.mask.height(); ++j)
-        for (int i = 0; i < region.mask.width(); ++i) {
-            const int x = region.x + i, y = region.y + j;
-            if (region.mask(i, j) == 0 || !surface.has_point(x, y)) continue;
-            const Vec3f p = surface.points_m(x, y);
-            for (std::size_t s = 0; s < sides.size(); ++s) {
-                const auto [dx, dy] = sides[s];
-                if (contains(region, x + dx, y + dy)) {
-                    if (s >= 2 || !surface.has_point(x + dx, y + dy)) continue;
-                    ++pairs;
-                    broken += std::fabs(surface.points_m(x + dx, y + dy).z - p.z) > depth_step_m(p.z);
-                    continue;
-                }
-                const int u = x + 2 * dx, v = y + 2 * dy;
-                if (!surface.points_m.contains(u, v) || !surface.has_point(u, v)) continue;
+    const std::vector<std::uint8_t> no_row(std::size_t(width), 0);
+    for (int j = 0; j < height; ++j) {
+        const int y = region.y + j;
+        const std::uint8_t* mask = region.mask.row(j).data();
+        const std::uint8_t* above = j > 0 ? region.mask.row(j - 1).data() : no_row.data();
+        const std::uint8_t* below = j + 1 < height ? region.mask.row(j + 1).data() : no_row.data();
+        const Vec3f* points_m = surface.points_m.row(y).data() + region.x;
+        const Vec3f* points_below_m = j + 1 < height ? points_m + surface.width() : points_m;
+        for (int i = 0; i < width; ++i) {
+            const Vec3f p = points_m[i];
+            if (mask[i] == 0 || !(p.z > 0)) continue;
+            const float step_m = depth_step_m(p.z);
+            const bool right = i + 1 < width && mask[i + 1] != 0, left = i > 0 && mask[i - 1] != 0;
+            const auto within = [&](float z) {
+                if (!(z > 0)) return;
+                ++pairs;
+                broken += std::fabs(z - p.z) > step_m;
+            };
+            if (right) within(points_m[i + 1].z);
+            if (below[i] != 0) within(points_below_m[i].z);
+            if (right && left && above[i] != 0 && below[i] != 0) continue;
+            const auto outside = [&](int u, int v) {
+                if (!surface.points_m.contains(u, v) || !surface.has_point(u, v)) return;
                 ++outline;
                 const Vec3f q = surface.points_m(u, v), between = q - p;
-                if (q.z < p.z - depth_step_m(p.z)) {
+                if (q.z < p.z - step_m) {
                     ++hidden;
-                } else if (q.z < p.z + depth_step_m(p.z)) {
-                    const Vec3f turn = surface.normals(u, v) - surface.normals(x, y);
+                } else if (q.z < p.z + step_m) {
+                    const Vec3f turn = surface.normals(u, v) - surface.normals(region.x + i, y);
                     continued += !(dot(turn, between) < -concave * length(between));
                 }
-            }
+            };
+            if (!right) outside(region.x + i + 2, y);
+            if (!left) outside(region.x + i - 2, y);
+            if (below[i] == 0) outside(region.x + i, y + 2);
+            if (above[i] == 0) outside(region.x + i, y - 2);
         }
+    }
     const auto share = [](std::size_t part, std::size_t all) {
         return all > 0 ? double(part) / double(all) : 0;
     };

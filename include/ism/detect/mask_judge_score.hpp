@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,18 +22,9 @@
 
 namespace ism {
 
-/// @brief A region as a segmentation that is sure of itself.
-[[nodiscard]] inline Segmentation sure_segmentation(const RegionMask& region) {
-    Segmentation result{.x = region.x, .y = region.y, .figure = {}, .ground = {}, .mask = region.mask};
-    result.figure = GrayImage(region.mask.width(), region.mask.height()), result.ground = result.figure;
-    for (std::size_t i = 0; i < region.mask.pixels().size(); ++i)
-        (region.mask.pixels()[i] != 0 ? result.figure : result.ground).pixels()[i] = 1;
-    return result;
-}
-
 /// @brief Judges regions instead of hypotheses: segments of the surface and masks of the votes are candidates
 /// for every class, and MaskJudge tells by votes, colour and shape which they show. For vote spaces with
-/// poses and models of learn_mask_judge(); segmented already, see KeepSegmentation.
+/// poses and models of learn_mask_judge(); with their masks, see KeepSegmentation.
 struct MaskJudgeScore {
     MaskCandidateOptions candidates = {};
     double min_logit = -6;  ///< less probable ones are not candidates
@@ -40,10 +32,15 @@ struct MaskJudgeScore {
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene& scene) const;
 };
 
-/// @brief The segmentation that a rescorer gave.
+/// @brief The mask that a rescorer gave, as a segmentation that is sure of itself.
 struct KeepSegmentation {
     [[nodiscard]] Segmentation segment(const Detection& hypothesis, const Scene&) const {
-        return hypothesis.segmentation;
+        Segmentation result = hypothesis.segmentation;
+        const Mask& mask = result.mask;
+        result.figure = result.ground = GrayImage(mask.width(), mask.height());
+        for (std::size_t i = 0; i < mask.pixels().size(); ++i)
+            (mask.pixels()[i] != 0 ? result.figure : result.ground).pixels()[i] = 1;
+        return result;
     }
 };
 
@@ -80,30 +77,41 @@ struct KeepSegmentation {
     return inside;
 }
 
-/// @brief Places a detection in the camera frame: where at least three of its votes say, else where the ray
-/// through the middle of its box meets the median depth of its region, as for a training object; the standard
-/// error is then the deviation of these depths.
-[[nodiscard]] inline Detection placed(Detection detection, const RegionMask& region, const Scene& scene) {
-    const Surface& surface = *scene.surface;
+/// @brief The depth of a region, metres.
+struct RegionDepth {
+    double median_m, deviation_m;  ///< from the median, root of the mean square
+};
+
+/// @brief The depth of a region; none where no pixel of it has a reading.
+[[nodiscard]] inline std::optional<RegionDepth> region_depth(const Surface& surface,
+                                                             const RegionMask& region) {
     std::vector<float> depths;
     for (int j = 0; j < region.mask.height(); ++j)
         for (int i = 0; i < region.mask.width(); ++i)
             if (region.mask(i, j) != 0 && surface.has_point(region.x + i, region.y + j))
                 depths.push_back(surface.points_m(region.x + i, region.y + j).z);
-    if (depths.empty()) return detection;
+    if (depths.empty()) return {};
     const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
     std::nth_element(depths.begin(), middle, depths.end());
-    const double depth_m = *middle;
+    const double median_m = *middle;
+    double squares = 0;
+    for (const float depth : depths) squares += (depth - median_m) * (depth - median_m);
+    return RegionDepth{median_m, std::sqrt(squares / double(depths.size()))};
+}
+
+/// @brief Places a detection in the camera frame: where at least three of its votes say, else where the ray
+/// through the middle of its box meets the median depth of its region, as for a training object; the standard
+/// error is then the deviation of these depths.
+[[nodiscard]] inline Detection placed(Detection detection, const RegionDepth& depth, const Scene& scene) {
+    const Camera& camera = scene.surface->camera;
     if (detection.support.size() >= 3) {
         detection = with_voted_position(std::move(detection), scene);
     } else {
-        double squares = 0;
-        for (const float depth : depths) squares += (depth - depth_m) * (depth - depth_m);
-        detection.position_m = back_project(surface.camera, detection.centre, depth_m);
-        detection.depth_m = depth_m;
-        detection.position_error_m = std::sqrt(squares / double(depths.size()));
+        detection.position_m = back_project(camera, detection.centre, depth.median_m);
+        detection.depth_m = depth.median_m;
+        detection.position_error_m = depth.deviation_m;
     }
-    detection.size_m = std::sqrt(detection.box.area()) * depth_m / surface.camera.fx;
+    detection.size_m = std::sqrt(detection.box.area()) * depth.median_m / camera.fx;
     return detection;
 }
 
@@ -123,6 +131,7 @@ inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hyp
         const auto votes = region_votes(scene, hypotheses, regions[i]);
         const auto looks = look_distances(look, judge.examples, classes);
         const RegionOutline outline = region_outline(*scene.surface, regions[i]);
+        const std::optional<RegionDepth> depth = region_depth(*scene.surface, regions[i]);
         for (std::uint32_t c = 0; c < classes; ++c) {
             const MaskCues cues = mask_cues(votes, looks, outline, c);
             const double logit = std::clamp(judge.logit(cues), -300.0, 300.0);  // its odds stay finite
@@ -134,11 +143,12 @@ inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hyp
             detection.box = box_of(regions[i]);
             detection.centre = detection.box.centre();
             detection.scale = std::sqrt(detection.box.area()) / reference_size_px;
-            detection.segmentation = sure_segmentation(regions[i]);
+            detection.segmentation.x = regions[i].x, detection.segmentation.y = regions[i].y;
+            detection.segmentation.mask = regions[i].mask;
             detection.reasons = mask_reasons(judge, cues, looks[c]);
             if (votes[c].weight > 0)
                 detection.support = support_in(hypotheses[votes[c].hypothesis].support, regions[i], scene);
-            judged[i].push_back(placed(std::move(detection), regions[i], scene));
+            judged[i].push_back(depth ? placed(std::move(detection), *depth, scene) : std::move(detection));
         }
     });
     std::vector<Detection> result;

@@ -44,9 +44,10 @@ namespace detail {
     return hull;
 }
 
-/// Calls visit(x, y) for each pixel of an image whose centre is in a convex polygon.
+/// Calls visit(y, x0, x1) for the pixels x0 … x1 of each row of an image whose centres are in a convex
+/// polygon.
 template <class Visit>
-void each_pixel_in(std::span<const Point2> hull, int width, int height, const Visit& visit) {
+void each_row_in(std::span<const Point2> hull, int width, int height, const Visit& visit) {
     double top = std::numeric_limits<double>::infinity(), bottom = -top;
     for (const Point2& p : hull) top = std::min(top, p.y), bottom = std::max(bottom, p.y);
     if (!(bottom >= top)) return;
@@ -63,7 +64,7 @@ void each_pixel_in(std::span<const Point2> hull, int width, int height, const Vi
         }
         const int x0 = int(std::ceil(std::clamp(left, 0.0, double(width))));
         const int x1 = int(std::floor(std::clamp(right, -1.0, double(width - 1))));
-        for (int x = x0; x <= x1; ++x) visit(x, y);
+        if (x0 <= x1) visit(y, x0, x1);
     }
 }
 
@@ -98,11 +99,14 @@ void each_pixel_in(std::span<const Point2> hull, int width, int height, const Vi
             return *nth;
         };
         const float near = part(0.05) - margin_m, far = part(0.95) + margin_m;
-        detail::each_pixel_in(detail::convex_hull(std::move(seen)), surface.width(), surface.height(),
-                              [&](int x, int y) {
-                                  const float z = surface.points_m(x, y).z;
-                                  if (z > near && z < far) ++hits[std::size_t(supervoxels.labels(x, y))];
-                              });
+        detail::each_row_in(detail::convex_hull(std::move(seen)), surface.width(), surface.height(),
+                            [&](int y, int x0, int x1) {
+                                const Vec3f* points_m = surface.points_m.row(y).data();
+                                const std::int32_t* labels = supervoxels.labels.row(y).data();
+                                for (int x = x0; x <= x1; ++x)
+                                    if (points_m[x].z > near && points_m[x].z < far)
+                                        ++hits[std::size_t(labels[x])];
+                            });
     }
     Box around;
     for (std::size_t i = 0; i < supervoxels.all.size(); ++i) {
