@@ -39,7 +39,8 @@ ToyScene render_cluttered(std::uint64_t scene_seed, const ClutterOptions& clutte
 
     const float eye_z = vary(0.30, 0.42);
     const Vec aim{0, vary(0.95, 1.1), 0.02f};
-    const Viewer viewer = look_at(camera, {0, 0, eye_z}, aim, vary(-2, 2) * degree);
+    const float roll = vary(-2, 2) * degree;
+    const Viewer first_viewer = look_at(camera, {0, 0, eye_z}, aim, roll);
     const float half_view = float((options.width - 1) / 2.0 / options.focal_px);
     const Room room = make_room(random, true);
     Light light;
@@ -79,7 +80,7 @@ ToyScene render_cluttered(std::uint64_t scene_seed, const ClutterOptions& clutte
                 spot(eye_z, float(clutter.near_m * std::pow(ratio, share)), vary(-0.92, 0.92), half_view);
             const double turn = largest_turn_deg(class_index);
             toy.pose = standing(at, std::atan2(-at.x, at.y) + vary(-turn, turn) * degree);
-            if (!in_picture(toy, viewer, options) || !free_place(toy, 0.012f)) continue;
+            if (!in_picture(toy, first_viewer, options) || !free_place(toy, 0.012f)) continue;
             things.push_back(toy), labels.push_back({class_index, instance});
             break;
         }
@@ -107,13 +108,23 @@ ToyScene render_cluttered(std::uint64_t scene_seed, const ClutterOptions& clutte
                 break;
         }
     // Toys that are hidden too much are taken away; this only shows more of the others.
-    Geometry geometry = draw(things, viewer, options.width, options.height);
+    Geometry geometry = draw(things, first_viewer, options.width, options.height);
     std::vector<Placed> kept;
     for (std::size_t i = 0; i < things.size(); ++i)
         if (things[i].object < 0 || geometry.visible[i] >= clutter.least_visible) kept.push_back(things[i]);
-    if (kept.size() < things.size()) geometry = draw(kept, viewer, options.width, options.height);
+    Viewer viewer = first_viewer;
+    std::uint64_t noise_seed = scene_seed;
+    if (clutter.frame > 0) {
+        noise_seed = derived_seed(scene_seed, 1000 + clutter.frame);
+        ism::Random shake(noise_seed);
+        const auto off = [&] { return float(clutter.shake_m * shake.normal()); };
+        const float x = off(), y = off(), z = off();
+        viewer = look_at(camera, {x, y, eye_z + z}, aim, roll);
+    }
+    if (kept.size() < things.size() || clutter.frame > 0)
+        geometry = draw(kept, viewer, options.width, options.height);
     return take_picture(kept, geometry, labels, room, light, viewer, {{0, 1.0f, 0.08f}, 1.05f}, options,
-                        scene_seed);
+                        noise_seed);
 }
 
 }  // namespace toy

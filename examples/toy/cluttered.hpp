@@ -19,6 +19,9 @@ struct ClutterOptions {
     double near_m = 0.62, far_m = 1.4;  ///< distances of toys from the camera
     double occluder_share = 0.4;        ///< of toys that get something small put before them
     double least_visible = 0.3;         ///< toys of which less is seen are taken off the table
+    std::uint64_t frame = 0;  ///< of a sequence of the same table: from the second on (1, 2 …) the camera is
+                              ///< a little elsewhere and the sensors' noise is another
+    double shake_m = 0.003;  ///< standard deviation of the camera's place in these, along each axis
 };
 
 /// @brief A cluttered table with toys of all classes and other things, partly hiding each other; toys stand

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
+
+# The example 06_stream follows toys over frames; images of a data set and of a folder are the same frames.
+stream=$(dirname "$ism")/06_stream
+[[ -x $stream ]] || { echo "skipped: $stream is not built"; exit 77; }
+make_toys
+"$ism" train --data toys/train.json -o model --no-templates --threads 2 >/dev/null
+objects() { grep -E '^[0-9]+:' "$1"; }
+
+"$stream" model 12 2 >toys.txt
+(($(objects toys.txt | wc -l) == 12)) || fail "not a line a frame: $(cat toys.txt)"
+says "latency   p50 " toys.txt
+says "reading " toys.txt
+# Of the toys that are followed each keeps its identity, and positions scatter less than in single frames.
+read -r followed identities < <(sed -nE 's/^toys .* followed ([0-9]+) by ([0-9]+) identities$/\1 \2/p' toys.txt)
+((followed >= 4 && identities == followed)) || fail "identities: $(grep ^toys toys.txt)"
+ids() { grep "^$1:" toys.txt | grep -oE '#[0-9]+ [a-z]+' | sort; }
+[[ -n $(ids 4) && -z $(comm -23 <(ids 4) <(ids 12)) ]] || fail "an identity is lost: $(cat toys.txt)"
+sed -nE 's/^scatter .* ([0-9.]+) mm, smoothed ([0-9.]+) mm$/\1 \2/p' toys.txt >scatter.txt
+awk 'NF == 2 && $1 > 0 && $2 < 0.8 * $1 { fine = 1 } END { exit !fine }' scatter.txt ||
+    fail "smoothing does not smooth: $(grep ^scatter toys.txt)"
+"$stream" model 12 1 >one.txt
+cmp <(objects toys.txt) <(objects one.txt) || fail "other objects on one thread"
+
+mkdir frames
+for depth in toys/test/*-depth.png; do
+    name=$(basename "$depth" -depth.png)
+    cp "$depth" frames/
+    cp "toys/test/$name.png" "frames/$name-color.png"
+done
+echo '{"fx": 262.5, "fy": 262.5, "cx": 159.5, "cy": 119.5, "depth_scale": 0.001}' >frames/camera.json
+"$stream" model toys/test.json 2 >coco.txt
+"$stream" model frames 2 >folder.txt
+cmp <(objects coco.txt) <(objects folder.txt) || fail "a folder is seen otherwise"
+rm frames/*0000-depth.png # this frame by its colours alone
+"$stream" model frames 2 >mixed.txt
+(($(objects mixed.txt | wc -l) == $(objects folder.txt | wc -l))) || fail "a frame without depth: $(cat mixed.txt)"
+refused_in_a_line "toys/test: expected files NAME-color.png, got none" "$stream" model toys/test
+rm frames/camera.json
+refused_in_a_line "camera.json: expected a file, got none" "$stream" model frames
+refused "usage: " "$stream" model
