@@ -70,4 +70,12 @@ void sort_by(std::vector<T>& values, const Key& key) {
     }
 }
 
+/// The value that `n` of the others come before, in any order of equal ones; they are reordered. The middle
+/// one of an odd number is their median.
+[[nodiscard]] inline float nth_smallest(std::vector<float>& values, std::size_t n) {
+    const auto nth = values.begin() + std::ptrdiff_t(n);
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
+}
+
 }  // namespace ism::detail

@@ -13,6 +13,7 @@
 
 #include "ism/core/error.hpp"
 #include "ism/core/frame.hpp"
+#include "ism/core/order.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/mask_candidates.hpp"
 #include "ism/detect/mask_cues.hpp"
@@ -91,9 +92,7 @@ struct RegionDepth {
             if (region.mask(i, j) != 0 && surface.has_point(region.x + i, region.y + j))
                 depths.push_back(surface.points_m(region.x + i, region.y + j).z);
     if (depths.empty()) return {};
-    const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
-    const double median_m = *middle;
+    const double median_m = detail::nth_smallest(depths, depths.size() / 2);
     double squares = 0;
     for (const float depth : depths) squares += (depth - median_m) * (depth - median_m);
     return RegionDepth{median_m, std::sqrt(squares / double(depths.size()))};

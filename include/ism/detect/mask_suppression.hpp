@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "ism/core/error.hpp"
 #include "ism/core/geometry.hpp"
-#include "ism/core/order.hpp"
 #include "ism/core/region_mask.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/scene.hpp"
@@ -30,8 +28,8 @@ struct MaskSuppression {
     /// @brief Candidates have their masks already; nothing has to be cut out for this.
     [[nodiscard]] static constexpr bool needs_masks() { return false; }
 
-    [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> candidates) const;
-    [[nodiscard]] std::vector<Verified> verify(std::span<const Detection> candidates, const Scene&) const {
+    [[nodiscard]] std::vector<Verified> verify(const std::vector<Detection>& candidates) const;
+    [[nodiscard]] std::vector<Verified> verify(const std::vector<Detection>& candidates, const Scene&) const {
         return verify(candidates);
     }
 };
@@ -45,37 +43,28 @@ inline void check(const MaskSuppression& options) {
            options.max_inside);
 }
 
-inline std::vector<Verified> MaskSuppression::verify(std::span<const Detection> candidates) const {
-    std::vector<Verified> order, kept;
+inline std::vector<Verified> MaskSuppression::verify(const std::vector<Detection>& candidates) const {
     std::vector<RegionMask> regions;
     std::vector<std::size_t> areas;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const Segmentation& part = candidates[i].segmentation;
-        order.push_back({i, candidates[i].score});
-        regions.push_back({part.x, part.y, part.mask});
+    for (const Detection& candidate : candidates) {
+        regions.push_back({candidate.segmentation.x, candidate.segmentation.y, candidate.segmentation.mask});
         areas.push_back(area_of(regions.back()));
     }
-    detail::sort_by(order, [](const Verified& v) { return detail::falling(v.score); });
-    const auto are_one = [&](std::size_t a, std::size_t b) {
-        return iou(candidates[a].box, candidates[b].box) > max_iou ||
-               double(intersection_area(regions[a], regions[b])) >
-                   max_inside * double(std::min(areas[a], areas[b]));
-    };
-    std::vector<bool> taken(candidates.size(), false);
-    for (const Verified& candidate : order)
-        if (!taken[candidate.index] && std::none_of(kept.begin(), kept.end(), [&](const Verified& other) {
-                return are_one(other.index, candidate.index);
-            })) {
-            kept.push_back(candidate);
-            taken[candidate.index] = true;
-        }
+    std::vector<Verified> kept =
+        detail::strongest_of_each(candidates, [&](std::size_t stronger, std::size_t weaker) {
+            return iou(candidates[stronger].box, candidates[weaker].box) > max_iou ||
+                   double(intersection_area(regions[stronger], regions[weaker])) >
+                       max_inside * double(std::min(areas[stronger], areas[weaker]));
+        });
     if (!second_choices) return kept;
+    std::vector<bool> told(candidates.size(), false);
+    for (const Verified& choice : kept) told[choice.index] = true;
     const std::size_t first_choices = kept.size();
     for (std::size_t k = 0; k < first_choices; ++k)
         for (std::size_t i = 0; i < candidates.size(); ++i)
-            if (!taken[i] && regions[i] == regions[kept[k].index]) {
+            if (!told[i] && regions[i] == regions[kept[k].index]) {
                 kept.push_back({i, candidates[i].score * std::exp(-1.0)});
-                taken[i] = true;
+                told[i] = true;
             }
     return kept;
 }

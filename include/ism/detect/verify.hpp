@@ -31,6 +31,25 @@ concept Verifier = std::copyable<V> &&
     { verifier.verify(hypotheses, scene) } -> std::same_as<std::vector<Verified>>;
 };
 
+namespace detail {
+
+/// The hypotheses that stay, strongest first, where each gives way to a stronger one that is of the same
+/// object: are_one(stronger, weaker), by index.
+template <class AreOne>
+[[nodiscard]] std::vector<Verified> strongest_of_each(const std::vector<Detection>& hypotheses,
+                                                      const AreOne& are_one) {
+    std::vector<Verified> order, kept;
+    for (std::size_t i = 0; i < hypotheses.size(); ++i) order.push_back({i, hypotheses[i].score});
+    sort_by(order, [](const Verified& v) { return falling(v.score); });
+    for (const Verified& candidate : order)
+        if (std::none_of(kept.begin(), kept.end(),
+                         [&](const Verified& stronger) { return are_one(stronger.index, candidate.index); }))
+            kept.push_back(candidate);
+    return kept;
+}
+
+}  // namespace detail
+
 /// @brief Plain non-maximum suppression: of hypotheses whose boxes overlap the strongest stays.
 struct NonMaximumSuppression {
     double max_iou = 0.4;        ///< boxes that overlap more are of one object
@@ -42,20 +61,12 @@ struct NonMaximumSuppression {
 
     /// @brief The hypotheses that stay, strongest first, with their scores unchanged.
     [[nodiscard]] std::vector<Verified> verify(const std::vector<Detection>& hypotheses) const {
-        std::vector<Verified> order, kept;
-        for (std::size_t i = 0; i < hypotheses.size(); ++i) order.push_back({i, hypotheses[i].score});
-        detail::sort_by(order, [](const Verified& v) { return detail::falling(v.score); });
-        for (const Verified& candidate : order) {
-            const Detection& own = hypotheses[candidate.index];
-            const bool free = std::none_of(kept.begin(), kept.end(), [&](const Verified& other) {
-                const Detection& rival = hypotheses[other.index];
-                return (across_classes || rival.class_index == own.class_index) &&
-                       (iou(rival.box, own.box) > max_iou ||
-                        intersection(rival.box, own.box).area() > max_inside * own.box.area());
-            });
-            if (free) kept.push_back(candidate);
-        }
-        return kept;
+        return detail::strongest_of_each(hypotheses, [&](std::size_t stronger, std::size_t weaker) {
+            const Detection &rival = hypotheses[stronger], &own = hypotheses[weaker];
+            return (across_classes || rival.class_index == own.class_index) &&
+                   (iou(rival.box, own.box) > max_iou ||
+                    intersection(rival.box, own.box).area() > max_inside * own.box.area());
+        });
     }
     [[nodiscard]] std::vector<Verified> verify(const std::vector<Detection>& hypotheses, const Scene&) const {
         return verify(hypotheses);

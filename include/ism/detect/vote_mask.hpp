@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ism/core/geometry.hpp"
+#include "ism/core/order.hpp"
 #include "ism/core/region_mask.hpp"
 #include "ism/depth/supervoxels.hpp"
 #include "ism/depth/surface.hpp"
@@ -94,9 +95,7 @@ void each_row_in(std::span<const Point2> hull, int width, int height, const Visi
         if (seen.size() < 3) continue;
         ++cast;
         const auto part = [&](double share) {
-            const auto nth = depths.begin() + std::ptrdiff_t(share * double(depths.size() - 1));
-            std::nth_element(depths.begin(), nth, depths.end());
-            return *nth;
+            return detail::nth_smallest(depths, std::size_t(share * double(depths.size() - 1)));
         };
         const float near = part(0.05) - margin_m, far = part(0.95) + margin_m;
         detail::each_row_in(detail::convex_hull(std::move(seen)), surface.width(), surface.height(),

@@ -9,6 +9,7 @@
 
 #include "ism/core/camera.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 
 namespace ism {
@@ -40,9 +41,7 @@ inline constexpr double min_depth_share = 0.25;
             if (is_depth(depth_m(i, j))) readings.push_back(depth_m(i, j));
         }
     if (readings.empty() || double(readings.size()) < min_depth_share * double(pixels)) return no_depth;
-    const auto middle = readings.begin() + std::ptrdiff_t((readings.size() - 1) / 2);
-    std::nth_element(readings.begin(), middle, readings.end());
-    return *middle;
+    return detail::nth_smallest(readings, (readings.size() - 1) / 2);
 }
 
 /// @brief Gives each feature the depth_at() its place within a radius of one scale, at least 1 and at most 8

@@ -78,9 +78,7 @@ namespace ism {
         for (int x = 0; x < frame.depth_m.width(); ++x)
             if (mask(x, y) != 0 && is_depth(frame.depth_m(x, y))) readings.push_back(frame.depth_m(x, y));
     if (readings.empty()) return no_depth;
-    const auto middle = readings.begin() + std::ptrdiff_t(readings.size() / 2);
-    std::nth_element(readings.begin(), middle, readings.end());
-    return *middle;
+    return detail::nth_smallest(readings, readings.size() / 2);
 }
 
 /// @brief Tells where an object lies in the camera frame and how large it is; unchanged where neither its

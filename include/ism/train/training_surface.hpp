@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/order.hpp"
 #include "ism/core/random.hpp"
 #include "ism/core/region_mask.hpp"
 #include "ism/core/thread_pool.hpp"
@@ -42,9 +43,8 @@ inline constexpr std::size_t max_object_points = 150;
     if (points.empty()) return object;
     std::vector<float> depths;
     for (const Vec3f& point : points) depths.push_back(point.z);
-    const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
-    object = placed_in_space(std::move(object), box, position_m, *middle, surface.camera);
+    const float depth_m = detail::nth_smallest(depths, depths.size() / 2);
+    object = placed_in_space(std::move(object), box, position_m, depth_m, surface.camera);
     Random random(1);
     for (std::size_t i = 0; i < std::min(max_object_points, points.size()); ++i) {
         std::swap(points[i], points[i + random.index(points.size() - i)]);

@@ -14,6 +14,7 @@
 
 #include "ism/core/aligned.hpp"
 #include "ism/core/callable.hpp"
+#include "ism/core/order.hpp"
 #include "ism/vote/bandwidth.hpp"
 #include "ism/vote/cell_grid.hpp"
 #include "ism/vote/vote.hpp"
@@ -115,9 +116,7 @@ private:
                 high[k] = std::max(high[k], votes[i].at[k]);
             }
         }
-        const auto middle = scales_.begin() + std::ptrdiff_t(size_ / 2);
-        std::nth_element(scales_.begin(), middle, scales_.end());
-        auto wanted = first_axes(bandwidth_.at(*middle), 1);
+        auto wanted = first_axes(bandwidth_.at(detail::nth_smallest(scales_, size_ / 2)), 1);
         for (std::size_t k = 0; k < 3; ++k) wanted[k] *= k == 0 ? 0.25 : 0.5;
         cells_ = CellGrid(first_axes(low), first_axes(high), wanted, 2 * size_);
     }
