@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +17,7 @@
 #include <omp.h>
 #endif
 
+#include "support/isa_option.hpp"
 #include "support/peer_search.hpp"
 #include "support/rows.hpp"
 #include "support/search_data.hpp"
@@ -69,12 +69,9 @@ void select_by_products(const Words& words, const Rows& queries, std::size_t cou
     for (std::size_t first = 0; first < queries.size(); first += rows) {
         const std::size_t height = std::min(rows, queries.size() - first);
         near.assign(height * count, {std::numeric_limits<float>::infinity(), 0});
-        for (std::size_t left = 0; left < words.size(); left += columns) {
-            const std::size_t width = std::min(columns, words.size() - left);
-            product(words.means().row(left).data(), width, queries.row(first).data(), height, dots.data());
-            const float* lengths = words.mean_sq_lengths().data() + left;
-            for (std::size_t i = 0; i < height; ++i) {
-                const float* dot = dots.data() + i * width;
+        bench::each_product_row(
+            words, queries, first, height, columns, dots, product,
+            [&](std::size_t i, std::size_t left, const float* lengths, const float* dot, std::size_t width) {
                 auto* own = near.data() + i * count;
                 for (std::size_t j = 0; j < width; j += strip) {
                     const std::size_t end = std::min(width, j + strip);
@@ -90,8 +87,7 @@ void select_by_products(const Words& words, const Rows& queries, std::size_t cou
                         own[at] = {distance, std::uint32_t(left + k)};
                     }
                 }
-            }
-        }
+            });
         for (const auto& [distance, word] : near) lists.push_back(word);
     }
 }
@@ -143,11 +139,7 @@ int main(int argc, char** argv) try {
         ->check(CLI::Range(12, 100000));
     app.add_option("--nearest", counts, "how many neighbours of each")->check(CLI::Range(1, 1000));
     app.add_option("--rounds", rounds, "measurements, their median counts")->check(CLI::Range(1, 1000));
-    app.add_option("--isa", isa, "instruction set of ours; without, the best there is")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, ism::InstructionSet>{{"any", ism::InstructionSet::any},
-                                                       {"avx2", ism::InstructionSet::avx2},
-                                                       {"avx512_vnni", ism::InstructionSet::avx512_vnni}}));
+    bench::add_isa_option(app, isa);
     app.add_option("--json", json, "write the rows to this file");
     CLI11_PARSE(app, argc, argv);
     if (data.empty()) data = bench::data_folder();

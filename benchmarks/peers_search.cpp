@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include <omp.h>
 #endif
 
+#include "support/isa_option.hpp"
 #include "support/peer_search.hpp"
 #include "support/rows.hpp"
 #include "support/search_data.hpp"
@@ -123,11 +123,7 @@ int main(int argc, char** argv) try {
     app.add_option("--clustered", clustered, "number of descriptors to make words of")
         ->check(CLI::Range(1000, 1000000));
     app.add_option("--rounds", rounds, "measurements, their median counts")->check(CLI::Range(1, 1000));
-    app.add_option("--isa", isa, "instruction set of ours; without, the best there is")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, ism::InstructionSet>{{"any", ism::InstructionSet::any},
-                                                       {"avx2", ism::InstructionSet::avx2},
-                                                       {"avx512_vnni", ism::InstructionSet::avx512_vnni}}));
+    bench::add_isa_option(app, isa);
     app.add_flag("--fast-only", fast_only, "leave out the peers that are slow to build or to ask");
     app.add_option("--json", json, "write the rows to this file");
     CLI11_PARSE(app, argc, argv);

@@ -41,6 +41,20 @@ struct SearchPeer {
     std::function<void(const Rows&, std::vector<Hit>&)> search;
 };
 
+/// Dot products of all words with some queries by `product`, `columns` words at a time: calls
+/// visit(query, first word, lengths of the words, their products, their number) for each query of a block.
+template <class Product, class Visit>
+void each_product_row(const Words& words, const Rows& queries, std::size_t first, std::size_t height,
+                      std::size_t columns, std::vector<float>& dots, const Product& product,
+                      const Visit& visit) {
+    for (std::size_t left = 0; left < words.size(); left += columns) {
+        const std::size_t width = std::min(columns, words.size() - left);
+        product(words.means().row(left).data(), width, queries.row(first).data(), height, dots.data());
+        for (std::size_t i = 0; i < height; ++i)
+            visit(i, left, words.mean_sq_lengths().data() + left, dots.data() + i * width, width);
+    }
+}
+
 /// Blocks of 64 × 512 dot products by `product`, then norms and threshold: as one writes it with a BLAS.
 template <class Product>
 void search_by_products(const Words& words, const Rows& queries, std::vector<Hit>& hits,
@@ -54,12 +68,9 @@ void search_by_products(const Words& words, const Rows& queries, std::vector<Hit
         for (std::size_t i = 0; i < height; ++i)
             square[i] =
                 Eigen::Map<const Eigen::VectorXf>(queries.row(first + i).data(), sift_size).squaredNorm();
-        for (std::size_t left = 0; left < words.size(); left += columns) {
-            const std::size_t width = std::min(columns, words.size() - left);
-            product(words.means().row(left).data(), width, queries.row(first).data(), height, dots.data());
-            const float* lengths = words.mean_sq_lengths().data() + left;
-            for (std::size_t i = 0; i < height; ++i) {
-                const float* dot = dots.data() + i * width;
+        each_product_row(
+            words, queries, first, height, columns, dots, product,
+            [&](std::size_t i, std::size_t left, const float* lengths, const float* dot, std::size_t width) {
                 // in strips, so that the compiler compares many at once
                 constexpr std::size_t strip = 16;
                 for (std::size_t j = 0; j < width; j += strip) {
@@ -72,8 +83,7 @@ void search_by_products(const Words& words, const Rows& queries, std::vector<Hit
                         if (square[i] + lengths[k] - 2 * dot[k] <= threshold)
                             hits.emplace_back(first + i, left + k);
                 }
-            }
-        }
+            });
     }
 }
 

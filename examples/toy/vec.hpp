@@ -5,41 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ism/core/vec3.hpp"
+
 namespace toy {
 
 /// @brief Three numbers: a point or direction in metres, or a linear colour (red, green, blue 0 … 1).
 /// The world has x right, y away from the viewer, z up; the table is z = 0.
-struct Vec {
-    float x = 0, y = 0, z = 0;
-    [[nodiscard]] constexpr bool operator==(const Vec&) const = default;
-};
+using Vec = ism::Vec3f;
+using ism::cross;
+using ism::dot;
+using ism::length;
+using ism::operator*;
 
-[[nodiscard]] constexpr Vec operator+(Vec a, Vec b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-[[nodiscard]] constexpr Vec operator-(Vec a, Vec b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-[[nodiscard]] constexpr Vec operator-(Vec a) {
-    return {-a.x, -a.y, -a.z};
-}
 [[nodiscard]] constexpr Vec operator*(Vec a, Vec b) {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 [[nodiscard]] constexpr Vec operator*(Vec a, float s) {
-    return {a.x * s, a.y * s, a.z * s};
-}
-[[nodiscard]] constexpr Vec operator*(float s, Vec a) {
-    return a * s;
-}
-[[nodiscard]] constexpr float dot(Vec a, Vec b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-[[nodiscard]] constexpr Vec cross(Vec a, Vec b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-[[nodiscard]] inline float length(Vec a) {
-    return std::sqrt(dot(a, a));
+    return s * a;
 }
 
 /// @brief `a` with length 1; upwards where `a` has none.
