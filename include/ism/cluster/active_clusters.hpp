@@ -25,7 +25,7 @@ class ActiveClusters {
 public:
     ActiveClusters(const ClusterMoments& start, ThreadPool& pool, InstructionSet isa = best_instruction_set())
         : stride_((start.dimension + 7) / 8 * 8),
-          means_(start.size() * stride_, 0.0f),
+          means_(start.size() * stride_),
           spread_(start.size(), 0.0),
           size_(start.size(), 1),
           projected_(start, pool),

@@ -27,7 +27,7 @@ namespace ism::detail {
 class ProjectedMeans {
 public:
     ProjectedMeans(const ClusterMoments& start, ThreadPool& pool)
-        : numbers_(start.size() * projected_dimension, 0.0f),
+        : numbers_(start.size() * projected_dimension),
           sq_length_(start.size()),
           whole_(start.dimension <= projected_dimension) {
         const std::size_t count = start.size(), dimension = start.dimension;
@@ -76,7 +76,8 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> spatial_order() const {
         std::vector<std::uint32_t> order(sq_length_.size());
         std::iota(order.begin(), order.end(), 0u);
-        order_spatially(numbers_, projected_dimension, tile_rows * tile_columns, order);
+        order_spatially({numbers_.data(), numbers_.size()}, projected_dimension, tile_rows * tile_columns,
+                        order);
         return order;
     }
 

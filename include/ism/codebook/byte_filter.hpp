@@ -99,7 +99,7 @@ inline ByteFilter::ByteFilter(std::span<const float> words, std::span<const floa
         for (std::size_t k = 0; k < dimension; ++k)
             centre_[k] += double(words[w * dimension + k]) / double(count);
 
-    panels_.assign(room * padded_, 0);
+    panels_.resize(room * padded_);
     for (auto* values : {&known_, &sum_, &length_, &error_}) values->assign(room, 0.0f);
     std::vector<std::uint8_t> bytes(padded_);
     for (std::size_t w = 0; w < count; ++w) {
@@ -125,7 +125,7 @@ inline ByteFilter::ByteFilter(std::span<const float> words, std::span<const floa
 
 inline void ByteFilter::prepare(std::span<const float> rows, const std::vector<double>& sq_lengths,
                                 double max_sq_distance, Block& block) const {
-    block.rows.assign(filter_block * padded_, 0);
+    block.rows.resize(filter_block * padded_);
     block.limits.resize(filter_block), block.rest.resize(filter_block), block.bias.resize(filter_group);
     ByteScale scale = byte_scale(rows, scale_.levels);
     scale.step = std::max(scale.step, scale_.step * 0x1p-10);

@@ -30,7 +30,7 @@ public:
                 InstructionSet isa)
         : dimension_(dimension), kernel_(float_kernel(isa)) {
         const std::size_t count = mean_sq_length.size();
-        panels_.assign(filter_groups(count) * filter_group * dimension, 0.0f);
+        panels_.resize(filter_groups(count) * filter_group * dimension);
         bias_.assign(filter_groups(count) * filter_group, 0.0f);
         Dot<float>* const dot = exact_dot<float>(isa);
         double sq_length = 0;

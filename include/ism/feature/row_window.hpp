@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "ism/core/aligned.hpp"
 #include "ism/core/image.hpp"
@@ -46,7 +47,7 @@ public:
             std::memmove(to + std::size_t(stride_) * std::size_t(capacity) * i,
                          pixels_.data() + plane() * i + stride_ * (first - first_), count * sizeof(float));
         });
-        if (grows) pixels_.swap(larger);
+        if (grows) std::swap(pixels_, larger);
         first_ = first, capacity_ = capacity;
     }
 

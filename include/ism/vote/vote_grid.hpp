@@ -55,7 +55,7 @@ public:
         for (std::uint32_t i = 0; i < size_; ++i) order_[first_[cell_of_[i] + 1]++] = i;
         for (std::size_t i = 0; i < size_; ++i) put(votes[order_[i]], i);
         for (std::size_t column = 0; column < Dimension + 2; ++column)
-            std::fill_n(columns_.begin() + std::ptrdiff_t(column * stride_ + size_), padding, 0.0f);
+            std::fill_n(columns_.data() + column * stride_ + size_, padding, 0.0f);
     }
 
     [[nodiscard]] std::size_t size() const { return size_; }
