@@ -41,7 +41,7 @@ public:
         call_ = nullptr;
         round_.fetch_add(1);
         round_.notify_all();
-        others_.clear();  // joins
+        for (std::thread& other : others_) other.join();
     }
 
     [[nodiscard]] unsigned size() const { return size_; }
@@ -90,10 +90,9 @@ private:
         next_ = 0;
         error_ = nullptr;
         error_at_ = count;
+        for (auto worker = unsigned(others_.size() + 1); worker < size_; ++worker)
+            others_.push_back(std::thread([this, worker, round = round_.load()] { serve(worker, round); }));
         working_ = size_ - 1;
-        if (others_.empty())
-            for (unsigned worker = 1; worker < size_; ++worker)
-                others_.emplace_back([this, worker, round = round_.load()] { serve(worker, round); });
         round_.fetch_add(1);
         round_.notify_all();
         work(0);
@@ -140,7 +139,7 @@ private:
     std::atomic<bool> running_ = false;
     std::mutex mutex_;
     std::exception_ptr error_;
-    std::vector<std::jthread> others_;
+    std::vector<std::thread> others_;
 };
 
 /// @brief Calls `body(i)` for each i in [0, count) on up to `threads` threads (0 = all hardware threads), as

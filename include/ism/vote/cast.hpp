@@ -116,10 +116,11 @@ template <VoteSpaceType Space>
                               placement(feature, occurrence)};
             if constexpr (Space::needs_pose) {
                 const OccurrenceFrame& seen = shapes.frames[occurrence.feature];
-                const auto placed = posed(feature, frames[match.feature], seen, source.object, *camera,
-                                          limits.max_size_ratio);
-                if (!placed) continue;
-                source.pose = placed->first, source.placement = placed->second;
+                const std::optional<Pose> pose =
+                    posed(feature, frames[match.feature], seen, *camera, limits.max_size_ratio);
+                if (!pose) continue;
+                source.pose = *pose;
+                source.placement = placement(*pose, source.object, *camera);
             } else if constexpr (Space::needs_depth) {
                 if (!detail::is_plausible(source.placement, centre_depth_m(feature, occurrence),
                                           source.object, camera, limits.max_size_ratio))

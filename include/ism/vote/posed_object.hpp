@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include "ism/core/camera.hpp"
 #include "ism/core/geometry.hpp"
@@ -41,20 +40,18 @@ namespace ism {
     return {project(camera, {c.x, c.y, c.z}), object.size_m * camera.fx / c.z / reference_size_px, 0};
 }
 
-/// @brief Where the object of an occurrence lies in space and in the image; nothing where a frame is not
+/// @brief Where the object of an occurrence lies in space; nothing where the frame of the feature is not
 /// known, or where the feature is longer or shorter than that of training by more than a ratio.
-[[nodiscard]] inline std::optional<std::pair<Pose, Placement>> posed(const Feature& feature,
-                                                                     const std::optional<LocalFrame>& frame,
-                                                                     const OccurrenceFrame& occurrence,
-                                                                     const TrainingObject& object,
-                                                                     const Camera& camera, double max_ratio) {
+[[nodiscard]] inline std::optional<Pose> posed(const Feature& feature, const std::optional<LocalFrame>& frame,
+                                               const OccurrenceFrame& occurrence, const Camera& camera,
+                                               double max_ratio) {
     if (!frame || !(occurrence.scale_m > 0)) return {};
     const double scale_m = double(feature.scale) * frame->point_m.z / camera.fx;
     const double ratio = scale_m / double(occurrence.scale_m);
     if (!(ratio <= max_ratio && ratio >= 1 / max_ratio)) return {};
     const Pose at = pose(*frame, occurrence);
     if (!(at.centre_m.z > 0.05f)) return {};
-    return std::pair(at, placement(at, object, camera));
+    return at;
 }
 
 }  // namespace ism
