@@ -102,7 +102,7 @@ public:
 
     ism::Detections look(const ism::Frame& frame) {
         if (depth_ && !frame.depth_m.empty() && frame.camera)
-            return ism::recognise(depth_->scene(frame), metric_);
+            return ism::recognise(depth_->scene(frame, ism::match_in<ism::Metric>()), metric_);
         if (!model_.templates.empty()) return ism::recognise(colors_.scene(frame), flat_);
         return ism::recognise(colors_.scene(frame), ism::Recognition<ism::Jism>{});
     }

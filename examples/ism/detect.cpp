@@ -18,6 +18,7 @@
 #include "ism/dataset/read_images.hpp"
 #include "ism/dataset/to_results.hpp"
 #include "ism/detect/frame_matcher.hpp"
+#include "ism/detect/metric.hpp"
 #include "ism/model_file/model_file.hpp"
 #include "ism/show/report_detections.hpp"
 
@@ -175,7 +176,9 @@ void run_detect(const DetectCommand& command) {
             search.explain = explain;
             search.space = space_of(frame, search.space, auto_metric);
             const bool metric = search.space == metric_space;
-            return find_objects((metric ? rgbd_matchers : matchers)[worker].scene(frame), search);
+            return find_objects(metric ? rgbd_matchers[worker].scene(frame, ism::match_in<ism::Metric>())
+                                       : matchers[worker].scene(frame),
+                                search);
         };
         pool.for_each(count, [&](std::size_t i, unsigned worker) {
             const ism::DatasetImage& image = dataset.images[i];

@@ -67,7 +67,7 @@ public:
         return kept(words_.scene(frame), with_reading);
     }
     [[nodiscard]] ism::Scene metric(const ism::Frame& frame) {
-        ism::Scene scene = metric_.scene(frame);
+        ism::Scene scene = metric_.scene(frame, ism::match_in<ism::Metric>());
         ism::add_surface(scene);
         return scene;
     }

@@ -58,8 +58,8 @@ struct WordRange {
     if (each == 0) return {};
     std::vector<Neighbour> neighbours(descriptors.size() * each);
     const std::size_t blocks = (descriptors.size() + detail::filter_block - 1) / detail::filter_block;
-    std::vector<detail::BlockNearest> searches;
-    while (searches.size() < pool.size()) searches.emplace_back(index, each, without.first, without.end);
+    std::vector<detail::BlockNearest> searches(pool.size(),
+                                               detail::BlockNearest(index, each, without.first, without.end));
     pool.for_each(blocks, [&](std::size_t block, unsigned worker) {
         const std::size_t first = block * detail::filter_block;
         Neighbour* to = neighbours.data() + first * each;

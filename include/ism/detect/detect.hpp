@@ -42,7 +42,7 @@ public:
     [[nodiscard]] Detections detect(const Frame& frame, const Recognition<Space, K, R, S, V>& recognition) {
         check(frame);
         check(recognition, frame);
-        return recognise(matcher_.scene(frame), recognition);
+        return recognise(matcher_.scene(frame, match_in<Space>()), recognition);
     }
 
     /// @brief The same in a vote space with default policies.

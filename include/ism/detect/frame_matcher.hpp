@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "ism/codebook/match.hpp"
-#include "ism/codebook/match_nearest.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/lists.hpp"
 #include "ism/core/stopwatch.hpp"
@@ -17,8 +16,37 @@
 #include "ism/feature/any_extractor.hpp"
 #include "ism/feature/depth.hpp"
 #include "ism/model/model.hpp"
+#include "ism/vote/vote_space.hpp"
 
 namespace ism {
+
+/// @brief How the descriptors of a channel with so many neighbours (Channel::neighbours) are matched.
+using MatchWords = std::vector<Match>(const WordIndex& words, const Descriptors<float>& descriptors,
+                                      std::size_t neighbours, ThreadPool& pool);
+
+/// @brief With all words within the codebook's threshold: see match().
+/// @throws Error for a channel that was learnt for its nearest words.
+[[nodiscard]] inline std::vector<Match> match_within(const WordIndex& words,
+                                                     const Descriptors<float>& descriptors,
+                                                     std::size_t neighbours, ThreadPool& pool) {
+    expect(neighbours == 0, "matching within a threshold: neighbours of the model's channel",
+           "0, since others are for a vote space with poses", neighbours);
+    return match(words, descriptors, pool);
+}
+
+/// @brief With the nearest words where the channel asks for them: in ism/detect/metric.hpp.
+[[nodiscard]] inline std::vector<Match> match_neighbours(const WordIndex& words,
+                                                         const Descriptors<float>& descriptors,
+                                                         std::size_t neighbours, ThreadPool& pool);
+
+/// @brief How features are matched for a vote space.
+template <VoteSpaceType Space>
+[[nodiscard]] constexpr MatchWords* match_in() {
+    if constexpr (Space::needs_pose)
+        return match_neighbours;
+    else
+        return match_within;
+}
 
 /// @brief Finds the features of one frame after another and matches them to the words of a model, with the
 /// same threads and memory. One frame at a time.
@@ -46,9 +74,10 @@ public:
     }
 
     /// @brief A frame with its features, with depth where it has depth, and their matches.
-    /// @param frame  has to stay as long as the scene
+    /// @param frame        has to stay as long as the scene
+    /// @param match_words  as match_in() gives it
     /// @throws Error for a frame that check(Frame) refuses.
-    [[nodiscard]] Scene scene(const Frame& frame) {
+    [[nodiscard]] Scene scene(const Frame& frame, MatchWords* match_words = match_within) {
         check(frame);
         Scene scene{.frame = frame, .model = model_, .pool = pool_};
         for (Channel& channel : channels_) {
@@ -57,10 +86,7 @@ public:
             scene.extract_ms += watch.lap_ms();
             const auto first = static_cast<std::uint32_t>(scene.features.size());
             detail::append(scene.features, found.features);
-            const bool nearest = channel.neighbours > 0;
-            for (Match match :
-                 nearest ? match_nearest(channel.words, found.descriptors, channel.neighbours, pool_)
-                         : match(channel.words, found.descriptors, pool_)) {
+            for (Match match : match_words(channel.words, found.descriptors, channel.neighbours, pool_)) {
                 match.feature += first, match.word += channel.first_word;
                 scene.matches.push_back(match);
             }
