@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+
+# ism/adapt/NAME.hpp beside the real library: tests/bridge/NAME.cpp, one program each. Where the library is not installed
+# (scripts/install_dependencies bridges) the test is told as skipped.
+add_custom_target(bridge_tests)
+add_dependencies(tested bridge_tests)
+function(ism_bridge_test name package)
+    if(NOT ${package}_FOUND)
+        add_test(NAME bridge/${name} COMMAND "${CMAKE_COMMAND}" -E echo "skipped: ${package} is not installed")
+        set_tests_properties(bridge/${name} PROPERTIES LABELS bridge SKIP_REGULAR_EXPRESSION "^skipped: ")
+        return()
+    endif()
+    add_executable(bridge_${name} EXCLUDE_FROM_ALL "${test_dir}/bridge/${name}.cpp")
+    target_link_libraries(bridge_${name} PRIVATE ism_dev_options ism_catch_main ${ARGN})
+    target_include_directories(bridge_${name} SYSTEM PRIVATE ${${package}_INCLUDE_DIRS})
+    target_compile_options(bridge_${name} PRIVATE -O0)
+    add_dependencies(bridge_tests bridge_${name})
+    add_test(NAME bridge/${name} COMMAND bridge_${name})
+    set_tests_properties(bridge/${name} PROPERTIES LABELS bridge)
+endfunction()
+
+find_package(OpenCV QUIET COMPONENTS core)
+ism_bridge_test(opencv OpenCV ${OpenCV_LIBS})
+find_package(Eigen3 QUIET)
+ism_bridge_test(eigen Eigen3 Eigen3::Eigen)
+set(PCL_FIND_QUIETLY ON)
+find_package(PCL QUIET COMPONENTS common)
+ism_bridge_test(pcl PCL ${PCL_LIBRARIES})
+
+add_test(NAME bridge/absent COMMAND "${CMAKE_COMMAND}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DINCLUDE=${PROJECT_SOURCE_DIR}/include"
+         "-DSCRATCH=${test_build_dir}/bridge_absent" -P "${test_dir}/bridge/absent.cmake")
+set_tests_properties(bridge/absent PROPERTIES LABELS bridge)

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+
+#include "ism/adapt/ros.hpp"
+
+namespace {
+
+/// The shapes of the messages: those of ROS have these members and more.
+struct ImageMessage {
+    std::uint32_t height = 0, width = 0;
+    std::string encoding;
+    std::uint8_t is_bigendian = 0;
+    std::uint32_t step = 0;
+    std::vector<std::uint8_t> data;
+};
+struct InfoMessage2 {  // of ROS 2
+    std::uint32_t height = 0, width = 0;
+    std::array<double, 9> k{};
+};
+struct InfoMessage1 {  // of ROS 1
+    std::array<double, 9> K{};
+};
+static_assert(ism::RosImage<ImageMessage> && !ism::RosImage<InfoMessage2>);
+static_assert(ism::RosCameraInfo<InfoMessage1> && ism::RosCameraInfo<InfoMessage2>);
+
+constexpr std::array<double, 9> k{525, 0, 319.5, 0, 526, 239.5, 0, 0, 1};
+
+ImageMessage picture(const std::string& encoding, std::uint32_t width, std::vector<std::uint8_t> row) {
+    const auto step = std::uint32_t(row.size());
+    return {1, width, encoding, 0, step, std::move(row)};
+}
+
+}  // namespace
+
+TEST_CASE("image messages in each encoding") {
+    CHECK(ism::to_frame(picture("mono8", 2, {0, 255, 9, 9})).gray(1, 0) == 1);
+    for (const auto& [encoding, bytes] : std::vector<std::pair<std::string, std::vector<std::uint8_t>>>{
+             {"rgb8", {1, 2, 3}}, {"bgr8", {3, 2, 1}}, {"rgba8", {1, 2, 3, 0}}, {"bgra8", {3, 2, 1, 0}}})
+        CHECK(ism::to_frame(picture(encoding, 1, bytes)).color(0, 0) == ism::Rgb{1, 2, 3});
+    CHECK(ism::to_frame(picture("mono16", 1, {255, 255})).gray(0, 0) == 1);
+}
+
+TEST_CASE("an image message with depth and camera") {
+    const ImageMessage color = picture("rgb8", 2, {1, 2, 3, 4, 5, 6});
+    ImageMessage units = picture("16UC1", 2, {0xe8, 0x03, 0, 0});  // 1000 mm
+    const ism::Frame frame = ism::to_frame(color, units, InfoMessage2{480, 640, k});
+    CHECK((frame.depth_m(0, 0) == 1.0f && frame.depth_m(1, 0) == 0));
+    CHECK(frame.camera == ism::Camera{525, 526, 319.5, 239.5});
+    CHECK(ism::to_camera(InfoMessage1{k}) == *frame.camera);
+
+    units.data = {0x03, 0xe8, 0, 0}, units.is_bigendian = 1;
+    CHECK(ism::to_frame(color, units, InfoMessage1{k}).depth_m(0, 0) == 1.0f);
+
+    const ImageMessage metres = picture("32FC1", 2, {0, 0, 0, 0x40, 0, 0, 0, 0});  // 2 m
+    CHECK(ism::to_frame(color, metres, InfoMessage1{k}).depth_m(0, 0) == 2);
+}
+
+TEST_CASE("messages that contradict themselves are refused") {
+    CHECK_THROWS_WITH(
+        ism::to_frame(picture("yuv422", 1, {0, 0})),
+        "image message: encoding: expected mono8, rgb8, bgr8, rgba8, bgra8, mono16, 16UC1 or 32FC1, "
+        "got 'yuv422'");
+    ImageMessage cut = picture("mono8", 2, {1, 2});
+    cut.height = 2;
+    CHECK_THROWS_WITH(ism::to_frame(cut),
+                      "image message: bytes of data: expected 4 (step 2 x height 2), got 2");
+    CHECK_THROWS_WITH(ism::to_frame(picture("rgb8", 2, {1, 2})),
+                      Catch::Contains("stride in bytes: expected 6"));
+    CHECK_THROWS_AS(ism::to_frame(ImageMessage{0, 0, "mono8", 0, 0, {}}), ism::Error);
+    CHECK_THROWS_WITH(ism::to_camera(InfoMessage2{}), Catch::Contains("focal lengths"));
+    CHECK_THROWS_WITH(
+        ism::to_frame(picture("mono8", 2, {1, 2}), picture("mono8", 2, {1, 2}), InfoMessage1{k}),
+        Catch::Contains("one channel of 16 bits or floats"));
+}
