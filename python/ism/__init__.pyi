@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+import os
+from typing import Any, Dict, List, Mapping, Optional, Sequence, TypedDict, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+Array = NDArray[Any]
+"""uint8, uint16 or float (0 ... 1) of shape (height, width) or (height, width, 3 or 4)."""
+Arrays = Union[Mapping[int, Array], Sequence[Array]]
+"""By image id, or in the order of coco["images"]."""
+
+class Rle(TypedDict):
+    size: List[int]  # height, width
+    counts: str  # as pycocotools packs them
+
+class _ResultBase(TypedDict):
+    image_id: int
+    category_id: int
+    bbox: List[float]  # x, y, width, height
+    score: float
+    scale: float
+    segmentation: Rle
+
+class Result(_ResultBase, total=False):
+    probability: float
+    depth_m: Optional[float]
+    position_m: List[float]  # x right, y down, z forward of the camera
+
+class Error(ValueError): ...
+
+class Model:
+    categories: List[Dict[str, Any]]
+    def detect(
+        self,
+        image: Array,
+        depth: Optional[Array] = None,
+        camera: Optional[Mapping[str, float]] = None,  # fx, fy, cx, cy
+        *,
+        image_id: int = 1,
+        space: str = "auto",
+        min_score: Optional[float] = None,
+        depth_scale: float = 0.001,
+        order: str = "rgb",
+        threads: int = 0,
+    ) -> List[Result]: ...
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None: ...
+    def info(self) -> Dict[str, Any]: ...
+
+def load(path: Union[str, "os.PathLike[str]"]) -> Model: ...
+def train(
+    coco: Mapping[str, Any],
+    images: Arrays,
+    depths: Optional[Arrays] = None,
+    *,
+    detector: str = "hessian-laplace",
+    descriptor: str = "root-sift",
+    templates: bool = True,
+    max_words: int = 0,
+    max_features: int = 40000,
+    depth_scale: float = 0.001,
+    order: str = "rgb",
+    seed: int = 1,
+    threads: int = 0,
+) -> Model: ...
+def encode_mask(mask: ArrayLike) -> Rle: ...
+def decode_mask(rle: Mapping[str, Any]) -> NDArray[np.uint8]: ...

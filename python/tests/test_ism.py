@@ -1,0 +1,248 @@
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+import ast
+import inspect
+import json
+import os
+import pathlib
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import ism
+
+SIDE = 128
+PLACES = {7: (20, 24), 11: (40, 30), 12: (30, 44)}  # by image id, none of which is its place in the list
+
+
+def pattern(seed, size=64):
+    """Squares of random brightness: a thing that looks like nothing else."""
+    cells = np.random.default_rng(seed).integers(30, 250, (8, 8, 3), dtype=np.uint8)
+    return np.kron(cells, np.ones((size // 8, size // 8, 1), dtype=np.uint8))
+
+
+def picture(x, y, seed=1):
+    image = np.full((SIDE, SIDE, 3), 90, dtype=np.uint8)
+    image[y : y + 64, x : x + 64] = pattern(seed)
+    return image
+
+
+def mask_at(x, y):
+    mask = np.zeros((SIDE, SIDE), dtype=np.uint8)
+    mask[y : y + 64, x : x + 64] = 1
+    return mask
+
+
+def make_coco(packed=lambda mask: ism.encode_mask(mask)):
+    return {
+        "categories": [{"id": 30, "name": "carpet"}],
+        "images": [{"id": i, "file_name": f"{i}.png", "width": SIDE, "height": SIDE} for i in PLACES],
+        "annotations": [
+            {"id": i, "image_id": i, "category_id": 30, "bbox": [x, y, 64, 64], "segmentation": packed(mask_at(x, y))}
+            for i, (x, y) in PLACES.items()
+        ],
+    }
+
+
+@pytest.fixture(scope="session")
+def images():
+    return {i: picture(x, y) for i, (x, y) in PLACES.items()}
+
+
+@pytest.fixture(scope="session")
+def model(images):
+    return ism.train(make_coco(), images, templates=False, threads=2)
+
+
+def iou(a, b):
+    width = min(a[0] + a[2], b[0] + b[2]) - max(a[0], b[0])
+    height = min(a[1] + a[3], b[1] + b[3]) - max(a[1], b[1])
+    common = max(width, 0) * max(height, 0)
+    return common / (a[2] * a[3] + b[2] * b[3] - common)
+
+
+def test_learns_and_finds(model):
+    found = model.detect(picture(50, 10), image_id=99)
+    assert found and found == sorted(found, key=lambda result: -result["score"])
+    best = found[0]
+    assert best["image_id"] == 99 and best["category_id"] == 30
+    assert iou(best["bbox"], [50, 10, 64, 64]) > 0.7
+    mask = ism.decode_mask(best["segmentation"])
+    assert mask.shape == (SIDE, SIDE) and mask.dtype == np.uint8
+    assert (mask & mask_at(50, 10)).sum() > 0.6 * 64 * 64
+    json.dumps(found)  # plain values
+    assert model.categories == [{"id": 30, "name": "carpet"}]
+
+
+def test_arrays_as_they_lie(model):
+    image = picture(50, 10)
+    usual = model.detect(image)
+    assert model.detect(image[:, :, ::-1], order="bgr") == usual  # a view, not in rows
+    assert model.detect(np.ascontiguousarray(image[:, :, ::-1]), order="bgr") == usual
+    wide = np.zeros((SIDE, SIDE + 9, 3), dtype=np.uint8)
+    wide[:, :SIDE] = image
+    assert model.detect(wide[:, :SIDE]) == usual  # rows farther apart
+    assert model.detect(np.ascontiguousarray(image[::-1])[::-1]) == usual  # from the last row to the first
+    alpha = np.dstack([image, np.zeros((SIDE, SIDE), dtype=np.uint8)])
+    assert model.detect(alpha) == usual
+    gray = (image @ np.array([0.299, 0.587, 0.114])) / 255
+    assert len(model.detect(gray)) == len(usual)
+    assert len(model.detect(gray.astype(">f4"))) == len(usual)
+    assert len(model.detect((gray * 65535).astype(np.uint16))) == len(usual)
+
+
+def test_same_for_any_threads_and_kinds_of_input(model, images):
+    image = picture(50, 10)
+    usual = model.detect(image, threads=1)
+    assert model.detect(image, threads=2) == usual
+    in_order = [images[i] for i in PLACES]
+    packed = make_coco(lambda mask: {**ism.encode_mask(mask), "counts": ism.encode_mask(mask)["counts"].encode()})
+    packed["annotations"][0]["bbox"] = np.array([20.0, 24, 64, 64])  # numbers of numpy, too
+    packed["images"][1]["width"] = np.int64(SIDE)
+    again = ism.train(packed, in_order, templates=False, threads=1)
+    assert again.detect(image) == usual
+
+
+def test_models_are_files_of_the_program(model, tmp_path):
+    path = tmp_path / "model.safetensors"
+    model.save(path)
+    loaded = ism.load(path)
+    info = loaded.info()
+    assert info == model.info() and info["classes"] == ["carpet"] and info["words"] > 0 and info["images"] == 3
+    loaded.categories = [{"id": 5, "name": "other"}, {"id": 30, "name": "carpet"}]
+    assert loaded.detect(picture(50, 10)) == model.detect(picture(50, 10))
+    program = os.environ.get("ISM_PROGRAM")
+    if program:
+        told = subprocess.run([program, "info", str(path)], check=True, capture_output=True, text=True).stdout
+        assert f"words           {info['words']}\n" in told
+    with pytest.raises(ValueError, match="none.safetensors"):
+        ism.load(tmp_path / "none.safetensors")
+    with pytest.raises(ValueError, match="one named 'carpet', got none"):
+        loaded.categories = [{"id": 5, "name": "other"}]
+
+
+def test_templates_and_depth():
+    camera = {"fx": 200.0, "fy": 200.0, "cx": 63.5, "cy": 63.5}
+    coco = make_coco()
+    for image in coco["images"]:
+        image["camera"] = camera
+    depths = {i: np.full((SIDE, SIDE), 1200, dtype=np.uint16) for i in PLACES}
+    for i, (x, y) in PLACES.items():
+        depths[i][y : y + 64, x : x + 64] = 1000  # mm
+    pictures = {i: picture(x, y) for i, (x, y) in PLACES.items()}
+    learnt = ism.train(coco, pictures, depths, threads=2)
+    info = learnt.info()
+    assert info["depth"] and info["templates"] == 1
+    depth = np.full((SIDE, SIDE), 1.2)
+    depth[10:74, 50:114] = 1.0  # m
+    found = learnt.detect(picture(50, 10), depth, camera, min_score=0)
+    assert found and abs(found[0]["position_m"][2] - 1.0) < 0.05
+    units = (depth * 1000).astype(np.uint16)
+    assert learnt.detect(picture(50, 10), units, camera, min_score=0)[0]["bbox"] == found[0]["bbox"]
+    with pytest.raises(ValueError, match="space metric: expected an image with depth and camera, got one without"):
+        learnt.detect(picture(50, 10), space="metric")
+    with pytest.raises(ValueError, match="depth image size: expected 128x128, got 10x10"):
+        learnt.detect(picture(50, 10), np.ones((10, 10)), camera)
+
+
+def test_masks_as_pycocotools_packs_them():
+    mask = np.zeros((3, 4), dtype=bool)
+    mask[1:, 1] = True
+    packed = ism.encode_mask(mask)
+    assert packed == {"size": [3, 4], "counts": "426"}  # 4 of ground, 2 of figure, 6 of ground
+    assert (ism.decode_mask(packed) == mask).all()
+    assert (ism.decode_mask({"size": [3, 4], "counts": b"426"}) == mask).all()
+    assert (ism.decode_mask({"size": [3, 4], "counts": [4, 2, 6]}) == mask).all()
+    with pytest.raises(ValueError, match="sum of 12, got 6"):
+        ism.decode_mask({"size": [3, 4], "counts": [4, 2]})
+
+
+def test_other_threads_run_meanwhile(model):
+    image = np.kron(picture(50, 10), np.ones((8, 8, 1), dtype=np.uint8))
+    stop, last, gaps = threading.Event(), [time.perf_counter()], []
+
+    def count():
+        while not stop.is_set():
+            now = time.perf_counter()
+            gaps.append(now - last[0])
+            last[0] = now
+            time.sleep(0.0005)
+
+    other = threading.Thread(target=count)
+    other.start()
+    begin = time.perf_counter()
+    model.detect(image, threads=1)
+    took = time.perf_counter() - begin
+    stop.set()
+    other.join()
+    assert len(gaps) > 10 and max(gaps) < 0.7 * took
+
+
+def test_bad_input_is_a_value_error(model, images):
+    assert issubclass(ism.Error, ValueError)
+    expected = "image: expected a numpy array of uint8, uint16, float32 or float64 of shape"
+    for bad, got in [
+        (np.zeros((4, 5), dtype=np.int32), "int32 of shape \\(4, 5\\)"),
+        (np.zeros((4, 5, 2), dtype=np.uint8), "uint8 of shape \\(4, 5, 2\\)"),
+        (np.zeros((0, 5), dtype=np.uint8), "uint8 of shape \\(0, 5\\)"),
+        (np.zeros(7), "float64 of shape \\(7,\\)"),
+        ([[1, 2], [3, 4]], "list"),
+    ]:
+        with pytest.raises(ValueError, match=f"{expected}.*, got {got}$"):
+            model.detect(bad)
+    with pytest.raises(ValueError, match="image size: expected at least 16x16, got 5x4"):
+        model.detect(np.zeros((4, 5), dtype=np.uint8))
+    with pytest.raises(ValueError, match="order: expected 'rgb' or 'bgr', got 'gbr'"):
+        model.detect(picture(0, 0), order="gbr")
+    with pytest.raises(ValueError, match="min_score: expected 0 ... 1, got 2"):
+        model.detect(picture(0, 0), min_score=2)
+    with pytest.raises(ValueError, match="vote space: expected one of"):
+        model.detect(picture(0, 0), space="nowhere")
+    with pytest.raises(ValueError, match="fx"):
+        model.detect(picture(0, 0), camera={"fy": 1})
+
+    with pytest.raises(ValueError, match="images: expected an array for image id 12, got none"):
+        ism.train(make_coco(), {i: images[i] for i in (7, 11)})
+    with pytest.raises(ValueError, match="image with id 7: size: expected 128x128, got 64x128"):
+        ism.train(make_coco(), {**images, 7: images[7][:, :64]})
+    broken = make_coco()
+    broken["annotations"][0]["category_id"] = 4
+    with pytest.raises(ValueError, match="category_id: expected the id of one of its categories, got 4"):
+        ism.train(broken, images)
+    with pytest.raises(ValueError, match="coco: expected a dict, got list"):
+        ism.train([], images)
+    with pytest.raises(ValueError, match="coco: expected what JSON can hold, got set"):
+        ism.train({**make_coco(), "more": set()}, images)
+    with pytest.raises(ValueError, match="detector .* got none and root-sift"):
+        ism.train(make_coco(), images, detector="none")
+
+
+def test_stubs_are_what_the_module_has():
+    stub = ast.parse((pathlib.Path(ism.__file__).parent / "__init__.pyi").read_text())
+    assert (pathlib.Path(ism.__file__).parent / "py.typed").exists()
+    functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
+    classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
+    assert set(functions) == {name for name in ism.__all__ if inspect.isbuiltin(getattr(ism, name))}
+    methods = {node.name: node for node in classes["Model"].body if isinstance(node, ast.FunctionDef)}
+    own = {name for name in vars(ism.Model) if not name.startswith("_")}
+    assert own == set(methods) | {"categories"}
+    for name, node in {**functions, **methods}.items():
+        real = getattr(ism.Model if name in methods else ism, name).__doc__.splitlines()[0]
+        names = [a.arg for a in node.args.args + node.args.kwonlyargs]
+        told = [part.split(":")[0].strip() for part in split_arguments(real)]
+        assert names == [part for part in told if part != "*"], name
+
+
+def split_arguments(signature):
+    """The arguments of pybind11's "name(a: int, b: Tuple[int, int] = ...) -> ..."."""
+    inside, depth, parts = signature[signature.index("(") + 1 : signature.rindex(") ->")], 0, [""]
+    for character in inside:
+        depth += (character in "([{") - (character in ")]}")
+        if character == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += character
+    return [part for part in parts if part.strip()]
