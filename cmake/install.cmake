@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
 
-# `cmake --install <build>` gives a package: find_package(ism 0.1) → ism::ism.
+# `cmake --install <build>` gives a package: find_package(ism 0.2) → ism::ism.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -22,3 +22,9 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/ism-config-version.cmake
 install(FILES "${PROJECT_BINARY_DIR}/ism-config.cmake" "${PROJECT_BINARY_DIR}/ism-config-version.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/ism_dependencies.cmake"
         DESTINATION "${package_dir}" COMPONENT ism_development)
+
+# For pkg-config; -std=c++20 is the program's own choice. It finds the headers from where it lies itself.
+set(pkgconfig_dir "${CMAKE_INSTALL_DATADIR}/pkgconfig")
+file(RELATIVE_PATH ism_prefix_from_pc "/prefix/${pkgconfig_dir}" "/prefix")
+configure_file("${PROJECT_SOURCE_DIR}/cmake/ism.pc.in" "${PROJECT_BINARY_DIR}/ism.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/ism.pc" DESTINATION "${pkgconfig_dir}" COMPONENT ism_development)

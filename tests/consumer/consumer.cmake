@@ -1,17 +1,26 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
 
-# A project of its own uses ism as its users do: installed, and as a part of its source tree.
-foreach(way find_package add_subdirectory)
+# A project of its own uses ism as its users do: installed, as a part of its source tree, and fetched.
+foreach(way find_package add_subdirectory fetch_content)
     add_test(NAME consumer/${way}
              COMMAND "${CMAKE_COMMAND}" "-DWAY=${way}" "-DISM_SOURCE=${PROJECT_SOURCE_DIR}" "-DISM_BUILD=${CMAKE_BINARY_DIR}"
                      "-DSCRATCH=${test_build_dir}/consumer/${way}" "-DCOMPILER=${CMAKE_CXX_COMPILER}"
                      "-DGENERATOR=${CMAKE_GENERATOR}" "-DVERSION=${PROJECT_VERSION}"
                      -P "${test_dir}/consumer/run.cmake")
-    set_tests_properties(consumer/${way} PROPERTIES LABELS consumer TIMEOUT 600 COST 60)
+    set_tests_properties(consumer/${way} PROPERTIES LABELS consumer TIMEOUT 600 COST 60 SKIP_REGULAR_EXPRESSION "skipped: ")
+endforeach()
+# Programs compiled by hand.
+set(hints "$<TARGET_PROPERTY:ism_include_dirs,INCLUDE_DIRECTORIES>")
+foreach(way include_path single_header pkg_config own_libraries)
+    add_test(NAME consumer/${way}
+             COMMAND "${CMAKE_COMMAND}" "-DWAY=${way}" "-DISM_SOURCE=${PROJECT_SOURCE_DIR}" "-DISM_BUILD=${CMAKE_BINARY_DIR}"
+                     "-DSCRATCH=${test_build_dir}/consumer/${way}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DVERSION=${PROJECT_VERSION}"
+                     "-DHINTS=${hints}" -P "${test_dir}/consumer/compile.cmake")
+    set_tests_properties(consumer/${way} PROPERTIES LABELS consumer TIMEOUT 600 COST 60 SKIP_REGULAR_EXPRESSION "skipped: ")
 endforeach()
 # Without the libraries that only some headers need: they are left out in turn when configuring …
-set(optional Eigen3 nanoflann nlohmann_json stb CLI11 Catch2)
+set(optional Eigen3 nanoflann nlohmann_json stb CLI11 Catch2 OpenCV PCL pybind11)
 list(TRANSFORM optional REPLACE "(.+)" "-DCMAKE_DISABLE_FIND_PACKAGE_\\1=ON" OUTPUT_VARIABLE without)
 add_test(NAME consumer/without_optional
          COMMAND "${CMAKE_COMMAND}" "-DWAY=add_subdirectory" "-DISM_SOURCE=${PROJECT_SOURCE_DIR}" "-DISM_BUILD=${CMAKE_BINARY_DIR}"
@@ -25,7 +34,8 @@ set_tests_properties(consumer/without_optional consumer/only_standard PROPERTIES
 
 # The project itself, configured without what it can do without.
 foreach(case "catch2;Catch2;-DISM_BUILD_TESTS=OFF;-DISM_BUILD_BENCHMARKS=OFF" "cli11;CLI11;-DISM_BUILD_TESTS=OFF;-DISM_BUILD_BENCHMARKS=OFF"
-        "json;nlohmann_json;-DISM_BUILD_TESTS=OFF;-DISM_BUILD_BENCHMARKS=OFF" "nanoflann;nanoflann")
+        "json;nlohmann_json;-DISM_BUILD_TESTS=OFF;-DISM_BUILD_BENCHMARKS=OFF" "nanoflann;nanoflann"
+        "bridges;OpenCV;-DISM_BUILD_BENCHMARKS=OFF;-DCMAKE_DISABLE_FIND_PACKAGE_PCL=ON;-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON;-DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON;-DISM_BUILD_PYTHON=ON")
     list(POP_FRONT case name package)
     add_test(NAME configure/without_${name}
              COMMAND "${CMAKE_COMMAND}" -S "${PROJECT_SOURCE_DIR}" -B "${test_build_dir}/configure/${name}" -G "${CMAKE_GENERATOR}"
@@ -34,8 +44,11 @@ foreach(case "catch2;Catch2;-DISM_BUILD_TESTS=OFF;-DISM_BUILD_BENCHMARKS=OFF" "c
     if(name MATCHES "cli11|json")
         set(says "left out.*Generating done")
     endif()
+    if(name STREQUAL "bridges")
+        set(says "07_camera is left out.*Python module is left out.*Generating done")
+    endif()
     set_tests_properties(configure/without_${name} PROPERTIES LABELS consumer PASS_REGULAR_EXPRESSION "${says}")
 endforeach()
 if(NOT ISM_INSTALL)
-    set_tests_properties(consumer/find_package PROPERTIES DISABLED ON)
+    set_tests_properties(consumer/find_package consumer/pkg_config PROPERTIES DISABLED ON)
 endif()

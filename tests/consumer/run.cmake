@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.22)
 
-# WAY is find_package or add_subdirectory, MORE further arguments to configure with: installs where needed, then configures, builds and runs tests/consumer/WAY.
+# WAY is find_package, add_subdirectory or fetch_content, MORE further arguments to configure with: installs where needed, then configures, builds and runs tests/consumer/WAY.
 function(step what)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
     if(NOT result EQUAL 0)
@@ -29,6 +29,22 @@ if(WAY STREQUAL "find_package")
         endforeach()
     endforeach()
     list(APPEND arguments "-DCMAKE_PREFIX_PATH=${SCRATCH}/moved" "-DISM_VERSION=${VERSION}")
+endif()
+if(WAY STREQUAL "fetch_content")
+    find_package(Git QUIET)
+    if(NOT Git_FOUND)
+        message(STATUS "skipped: git is not installed")
+        return()
+    endif()
+    # A repository of what a project that uses ism needs, as it is here now.
+    set(repository "${SCRATCH}/repository")
+    file(COPY "${ISM_SOURCE}/CMakeLists.txt" "${ISM_SOURCE}/LICENSE" "${ISM_SOURCE}/cmake" "${ISM_SOURCE}/include" DESTINATION "${repository}")
+    set(git "${GIT_EXECUTABLE}" -C "${repository}" -c user.name=ism -c user.email=ism@localhost -c core.hooksPath=/dev/null)
+    step("init" ${git} init -q)
+    step("add" ${git} add -A)
+    step("commit" ${git} commit -q -m "ism ${VERSION}")
+    step("tag" ${git} tag "v${VERSION}")
+    list(APPEND arguments "-DISM_REPOSITORY=file://${repository}" "-DISM_VERSION=${VERSION}")
 endif()
 step("configure" "${CMAKE_COMMAND}" -S "${ISM_SOURCE}/tests/consumer/${WAY}" -B "${SCRATCH}/build" -G "${GENERATOR}"
      "-DCMAKE_CXX_COMPILER=${COMPILER}" ${arguments} ${MORE})
