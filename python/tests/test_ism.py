@@ -220,6 +220,15 @@ def test_bad_input_is_a_value_error(model, images):
         ism.train(make_coco(), images, detector="none")
 
 
+def test_code_of_the_documentation_runs(images, tmp_path, monkeypatch):
+    text = (pathlib.Path(__file__).parents[2] / "docs" / "bridges.md").read_text()
+    blocks = text.split("```python\n")[1:]
+    assert blocks
+    monkeypatch.chdir(tmp_path)
+    for block in blocks:
+        exec(block.split("```")[0], {"coco": make_coco(), "images": images, "image": picture(50, 10)})
+
+
 def test_stubs_are_what_the_module_has():
     stub = ast.parse((pathlib.Path(ism.__file__).parent / "__init__.pyi").read_text())
     assert (pathlib.Path(ism.__file__).parent / "py.typed").exists()

@@ -31,3 +31,14 @@ ism_bridge_test(pcl PCL ${PCL_LIBRARIES})
 add_test(NAME bridge/absent COMMAND "${CMAKE_COMMAND}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DINCLUDE=${PROJECT_SOURCE_DIR}/include"
          "-DSCRATCH=${test_build_dir}/bridge_absent" -P "${test_dir}/bridge/absent.cmake")
 set_tests_properties(bridge/absent PROPERTIES LABELS bridge)
+
+# The code of the documentation compiles.
+if(OpenCV_FOUND AND Eigen3_FOUND AND PCL_FOUND)
+    set(bridge_flags ${OpenCV_INCLUDE_DIRS} ${PCL_INCLUDE_DIRS})
+    list(REMOVE_DUPLICATES bridge_flags)
+    list(REMOVE_ITEM bridge_flags /usr/include)
+    list(TRANSFORM bridge_flags PREPEND "-isystem")
+    add_test(NAME bridge/docs COMMAND "${CMAKE_COMMAND}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DFLAGS=${flags};${bridge_flags}"
+             "-DREADME=${PROJECT_SOURCE_DIR}/docs/bridges.md" "-DSCRATCH=${test_build_dir}/docs_code" -P "${test_dir}/support/check_readme_code.cmake")
+    set_tests_properties(bridge/docs PROPERTIES LABELS bridge COST 20)
+endif()
