@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "arrays.hpp"
 #include "commands.hpp"
 #include "extractors.hpp"
 #include "learning.hpp"
-#include "numpy_pixels.hpp"
 #include "spaces.hpp"
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -22,6 +22,7 @@
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/to_results.hpp"
 #include "ism/detect/frame_matcher.hpp"
+#include "ism/detect/metric.hpp"
 #include "ism/model_file/model_file.hpp"
 #include "ism/version.hpp"
 
@@ -52,24 +53,6 @@ bool is_bgr(const std::string& order) {
     ism::expect(order == "rgb" || order == "bgr", "order", "'rgb' or 'bgr'", ism::lazy_text("'", order, "'"));
     return order == "bgr";
 }
-
-/// Metres of depth arrays: floats are metres, whole numbers units of `depth_scale`.
-ism::DepthMap depth_in_metres(const ism::RawPixels& pixels, double depth_scale) {
-    return ism::to_depth(pixels, pixels.format.sample == ism::Sample::float32 ? 1 : depth_scale);
-}
-
-/// One image's arrays. What is done with them needs no Python.
-struct Arrays {
-    NumpyPixels picture;
-    std::optional<NumpyPixels> depth;
-    double depth_scale = 0;
-
-    [[nodiscard]] ism::Frame frame(const std::optional<ism::Camera>& camera) const {
-        ism::Frame frame = ism::to_frame(picture.pixels, camera);
-        if (depth) frame.depth_m = depth_in_metres(depth->pixels, depth_scale);
-        return frame;
-    }
-};
 
 /// The array of image i: of a dict by the image's id, of a list or tuple by its place.
 py::object array_of(const py::object& arrays, std::size_t i, std::int64_t id, bool required,
@@ -163,7 +146,7 @@ public:
         std::vector<ism::Result> results;
         {
             const py::gil_scoped_release released;
-            const ism::Frame frame = arrays.frame(seen_by);
+            const ism::Frame frame = to_frame(arrays, seen_by);
             const bool with_depth = !frame.depth_m.empty() && frame.camera;
             program::SearchOptions search{.space = space, .min_score = min_score};
             if (space == program::auto_space)
@@ -178,7 +161,9 @@ public:
             const ism::Model& used = metric ? model.rgbd.front() : model;
             ism::ThreadPool pool(threads);
             ism::FrameMatcher matcher(used, program::extractors_of(used), pool);
-            const ism::Detections found = program::find_objects(matcher.scene(frame), search);
+            ism::Scene scene =
+                metric ? matcher.scene(frame, ism::match_in<ism::Metric>()) : matcher.scene(frame);
+            const ism::Detections found = program::find_objects(std::move(scene), search);
             results = ism::to_results(found,
                                       {.id = image_id,
                                        .file = {},
@@ -227,8 +212,7 @@ PythonModel train(const py::object& coco, const py::object& images, const py::ob
     };
     set.image = [&](std::size_t i) {
         const ism::DatasetImage& image = dataset.images[i];
-        ism::TrainingImage training{.frame = arrays[i].frame(image.camera),
-                                    .name = ism::join_text("image with id ", image.id)};
+        ism::TrainingImage training{.frame = to_frame(arrays[i], image.camera), .name = image.file.string()};
         for (const ism::DatasetAnnotation& object : image.objects)
             if (!object.crowd)
                 training.objects.push_back({.class_index = object.class_index,
@@ -281,7 +265,7 @@ PYBIND11_MODULE(_ism, module) {
     namespace py = pybind11;
     using namespace pybind11::literals;
     using ism_python::PythonModel;
-    py::register_exception<ism::Error>(module, "Error", PyExc_ValueError);
+    py::register_exception<ism::Error>(module, "Error", PyExc_ValueError).attr("__module__") = "ism";
     module.attr("__version__") = ism::version_text;
 
     py::class_<PythonModel>(module, "Model", "What train() learnt and detect() needs.")

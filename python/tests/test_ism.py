@@ -5,6 +5,7 @@ import inspect
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import threading
 import time
@@ -114,14 +115,43 @@ def test_models_are_files_of_the_program(model, tmp_path):
     assert info == model.info() and info["classes"] == ["carpet"] and info["words"] > 0 and info["images"] == 3
     loaded.categories = [{"id": 5, "name": "other"}, {"id": 30, "name": "carpet"}]
     assert loaded.detect(picture(50, 10)) == model.detect(picture(50, 10))
-    program = os.environ.get("ISM_PROGRAM")
-    if program:
-        told = subprocess.run([program, "info", str(path)], check=True, capture_output=True, text=True).stdout
-        assert f"words           {info['words']}\n" in told
     with pytest.raises(ValueError, match="none.safetensors"):
         ism.load(tmp_path / "none.safetensors")
     with pytest.raises(ValueError, match="one named 'carpet', got none"):
         loaded.categories = [{"id": 5, "name": "other"}]
+
+
+def write_bmp(path, image):
+    height, width, _ = image.shape  # rows of a multiple of four bytes, the last one first, b g r
+    header = struct.pack("<2sIIIIiiHHIIiiII", b"BM", 54 + image.size, 0, 54, 40, width, height, 1, 24, 0, 0, 0, 0, 0, 0)
+    path.write_bytes(header + image[::-1, :, ::-1].tobytes())
+
+
+@pytest.mark.skipif(not os.environ.get("ISM_PROGRAM"), reason="the program ism is not built")
+@pytest.mark.parametrize("templates", [False, True])
+def test_finds_what_the_program_finds(images, tmp_path, templates):
+    coco = make_coco()
+    for image in coco["images"]:
+        image["file_name"] = f"{image['id']}.bmp"
+        write_bmp(tmp_path / image["file_name"], images[image["id"]])
+    (tmp_path / "coco.json").write_text(json.dumps(coco))
+    learnt = ism.train(coco, images, templates=templates)
+    learnt.save(tmp_path / "model.safetensors")
+
+    def run(*arguments):
+        command = [os.environ["ISM_PROGRAM"], *arguments]
+        return subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True).stdout
+
+    run("detect", "--model", "model.safetensors", "--data", "coco.json", "-o", "found.json")
+    by_program = json.loads((tmp_path / "found.json").read_text())
+    found = [result for i in PLACES for result in learnt.detect(images[i], image_id=i)]
+    keys = ["image_id", "category_id", "bbox", "score", "segmentation"]
+    assert found and [[r[k] for k in keys] for r in found] == [[r[k] for k in keys] for r in by_program]
+    # … and learns.
+    options = [] if templates else ["--no-templates"]
+    run("train", "--data", "coco.json", "-o", "again.safetensors", *options)
+    assert (tmp_path / "again.safetensors").read_bytes() == (tmp_path / "model.safetensors").read_bytes()
+    assert f"words           {learnt.info()['words']}\n" in run("info", "model.safetensors")
 
 
 def test_templates_and_depth():

@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include "ism/core/camera.hpp"
+#include "ism/core/error.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
 #include "ism/core/rotation.hpp"

@@ -15,12 +15,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 
 #include <opencv2/core.hpp>
 
 #include "ism/adapt/pixels.hpp"
 #include "ism/core/camera.hpp"
+#include "ism/core/error.hpp"
+#include "ism/core/frame.hpp"
 #include "ism/core/geometry.hpp"
+#include "ism/core/image.hpp"
 #include "ism/detect/detection.hpp"
 
 namespace ism {

@@ -10,6 +10,7 @@
 #error "ism/adapt/pcl.hpp needs PCL (Debian: libpcl-dev), by find_package(PCL COMPONENTS common) in CMake"
 #include "ism_needs_PCL"  // no such file: the compilation ends here
 #endif
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -22,6 +23,8 @@
 #include "ism/core/camera.hpp"
 #include "ism/core/error.hpp"
 #include "ism/core/frame.hpp"
+#include "ism/core/geometry.hpp"
+#include "ism/core/image.hpp"
 #include "ism/detect/detection.hpp"
 
 namespace ism {

@@ -134,17 +134,6 @@ inline constexpr float full_sample = std::is_same_v<T, std::uint8_t>    ? 255.0f
 
 }  // namespace detail
 
-/// @brief Brightness 0 … 1, colours weighted as by to_gray(); floats are taken as brightness 0 … 1 already.
-/// @throws Error as check(const RawPixels&) does.
-[[nodiscard]] inline GrayImage to_gray(const RawPixels& pixels) {
-    const auto weighted = []<class T>(T r, T g, T b) {
-        return (0.299f * float(r) + 0.587f * float(g) + 0.114f * float(b)) / detail::full_sample<T>;
-    };
-    const auto first = []<class T>(T r, T, T) { return float(r) / detail::full_sample<T>; };
-    return pixels.format.is_gray() ? detail::convert_pixels<float>(pixels, first)
-                                   : detail::convert_pixels<float>(pixels, weighted);
-}
-
 /// @brief Colours, 8 bits a channel: of 16 bits the upper ones, of floats 0 … 1 the nearest.
 /// @throws Error as check(const RawPixels&) does.
 [[nodiscard]] inline RgbImage to_rgb(const RawPixels& pixels) {
@@ -157,6 +146,19 @@ inline constexpr float full_sample = std::is_same_v<T, std::uint8_t>    ? 255.0f
     return detail::convert_pixels<Rgb>(pixels, [&](auto r, auto g, auto b) {
         return Rgb{byte(r), byte(g), byte(b)};
     });
+}
+
+/// @brief Brightness 0 … 1, colours weighted as by to_gray(); floats are taken as brightness 0 … 1 already.
+/// @throws Error as check(const RawPixels&) does.
+[[nodiscard]] inline GrayImage to_gray(const RawPixels& pixels) {
+    const auto weighted = []<class T>(T r, T g, T b) {
+        return (0.299f * float(r) + 0.587f * float(g) + 0.114f * float(b)) / detail::full_sample<T>;
+    };
+    if (pixels.format.sample == Sample::uint8 && !pixels.format.is_gray())
+        return to_gray(to_rgb(pixels));  // the same bits as of our images, whatever the compiler fuses
+    const auto first = []<class T>(T r, T, T) { return float(r) / detail::full_sample<T>; };
+    return pixels.format.is_gray() ? detail::convert_pixels<float>(pixels, first)
+                                   : detail::convert_pixels<float>(pixels, weighted);
 }
 
 /// @brief Depth in metres of a depth camera's units: whole numbers of 16 bits or floats. 0 and NaN stay as
@@ -178,8 +180,9 @@ inline constexpr float full_sample = std::is_same_v<T, std::uint8_t>    ? 255.0f
 /// @brief A picture as the library takes it: brightness, and colours where there are some.
 /// @throws Error as check(const RawPixels&) does.
 [[nodiscard]] inline Frame to_frame(const RawPixels& picture, const std::optional<Camera>& camera = {}) {
-    Frame frame{.gray = to_gray(picture), .camera = camera};
-    if (!picture.format.is_gray()) frame.color = to_rgb(picture);
+    if (picture.format.is_gray()) return {.gray = to_gray(picture), .camera = camera};
+    Frame frame{.gray = {}, .color = to_rgb(picture), .camera = camera};
+    frame.gray = picture.format.sample == Sample::uint8 ? to_gray(frame.color) : to_gray(picture);
     return frame;
 }
 

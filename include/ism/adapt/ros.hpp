@@ -6,6 +6,7 @@
 /// @brief ROS 1 and 2: messages by their shape, so nothing of ROS is included. Any struct with the members of
 /// sensor_msgs/Image or sensor_msgs/CameraInfo will do.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <concepts>
@@ -17,6 +18,8 @@
 #include "ism/adapt/pixels.hpp"
 #include "ism/core/camera.hpp"
 #include "ism/core/error.hpp"
+#include "ism/core/frame.hpp"
+#include "ism/io/limits.hpp"
 
 namespace ism {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <pybind11/numpy.h>
@@ -58,5 +59,15 @@ inline NumpyPixels numpy_pixels(const py::object& object, const std::string& wha
     format.swapped = !py::cast<bool>(array.dtype().attr("isnative"));
     return {array, {array.data(), int(array.shape(1)), int(array.shape(0)), array.strides(0), format}};
 }
+
+/// One image's arrays.
+struct Arrays {
+    NumpyPixels picture;
+    std::optional<NumpyPixels> depth = {};
+    double depth_scale = 0;  ///< metres a unit, of whole numbers; floats are metres
+};
+
+/// The arrays as the library takes pictures; needs no Python.
+ism::Frame to_frame(const Arrays& arrays, const std::optional<ism::Camera>& camera);
 
 }  // namespace ism_python
