@@ -39,9 +39,9 @@ py::object plain(const py::object& value) {
 }
 
 Json to_json(const py::object& object, const std::string& place) {
-    ism::expect(py::isinstance<py::dict>(object), place, "a dict", array_text(object));
+    ism::expect(py::hasattr(object, "keys"), place, "a dict", array_text(object));
     const py::object text = py::module_::import("json").attr("dumps")(
-        object, py::arg("default") = py::cpp_function(plain), py::arg("allow_nan") = false);
+        py::dict(object), py::arg("default") = py::cpp_function(plain), py::arg("allow_nan") = false);
     return ism::detail::parse_json(text.cast<std::string>(), place);
 }
 
@@ -54,17 +54,10 @@ bool is_bgr(const std::string& order) {
     return order == "bgr";
 }
 
-/// The array of image i: of a dict by the image's id, of a list or tuple by its place.
-py::object array_of(const py::object& arrays, std::size_t i, std::int64_t id, bool required,
-                    const char* what) {
-    if (arrays.is_none()) return py::none();
-    if (py::isinstance<py::dict>(arrays)) {
-        const py::object found = arrays.attr("get")(id);
-        ism::expect(!required || !found.is_none(), what, ism::lazy_text("an array for image id ", id),
-                    "none");
-        return found;
-    }
-    ism::expect(py::isinstance<py::list>(arrays) || py::isinstance<py::tuple>(arrays), what,
+/// The array of image i: of a dict by the image's id, of a list (or a stack of arrays) by its place.
+py::object array_of(const py::object& arrays, std::size_t i, std::int64_t id, const char* what) {
+    if (py::hasattr(arrays, "get")) return arrays.attr("get")(id);
+    ism::expect(py::hasattr(arrays, "__getitem__") && py::hasattr(arrays, "__len__"), what,
                 "a dict by image id, or a list in the order of coco['images']", array_text(arrays));
     ism::expect(i < py::len(arrays), what, ism::lazy_text("an array for image ", i, " of coco['images']"),
                 ism::lazy_text(py::len(arrays), " arrays"));
@@ -190,13 +183,15 @@ PythonModel train(const py::object& coco, const py::object& images, const py::ob
     for (std::size_t i = 0; i < dataset.images.size(); ++i) {
         const ism::DatasetImage& image = dataset.images[i];
         const std::string name = ism::join_text("image with id ", image.id);
-        arrays.push_back(
-            {numpy_pixels(array_of(images, i, image.id, true, "images"), name, bgr), {}, depth_scale});
+        const py::object picture = array_of(images, i, image.id, "images");
+        ism::expect(!picture.is_none(), "images", ism::lazy_text("an array for image id ", image.id), "none");
+        arrays.push_back({numpy_pixels(picture, name, bgr), {}, depth_scale});
         const ism::RawPixels& pixels = arrays.back().picture.pixels;
         ism::expect(pixels.width == image.width && pixels.height == image.height,
                     ism::lazy_text(name, ": size"), ism::lazy_text(image.width, "x", image.height),
                     size_text(pixels));
-        const py::object depth = array_of(depths, i, image.id, false, "depths");
+        const py::object depth =
+            depths.is_none() ? py::object(depths) : array_of(depths, i, image.id, "depths");
         if (!depth.is_none()) arrays.back().depth = numpy_pixels(depth, name + ", depth");
         with_depth = with_depth || (arrays.back().depth && image.camera);
     }

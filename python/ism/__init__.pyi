@@ -10,8 +10,8 @@ __version__: str
 
 Array = NDArray[Any]
 """uint8, uint16 or float (0 ... 1) of shape (height, width) or (height, width, 3 or 4)."""
-Arrays = Union[Mapping[int, Array], Sequence[Array]]
-"""By image id, or in the order of coco["images"]."""
+Arrays = Union[Mapping[int, Array], Sequence[Array], Array]
+"""By image id, or in the order of coco["images"]: a list or one stack of arrays."""
 
 class Rle(TypedDict):
     size: List[int]  # height, width

@@ -9,6 +9,7 @@ import struct
 import subprocess
 import threading
 import time
+import types
 
 import numpy as np
 import pytest
@@ -99,10 +100,11 @@ def test_same_for_any_threads_and_kinds_of_input(model, images):
     image = picture(50, 10)
     usual = model.detect(image, threads=1)
     assert model.detect(image, threads=2) == usual
-    in_order = [images[i] for i in PLACES]
+    in_order = np.stack([images[i] for i in PLACES])
     packed = make_coco(lambda mask: {**ism.encode_mask(mask), "counts": ism.encode_mask(mask)["counts"].encode()})
     packed["annotations"][0]["bbox"] = np.array([20.0, 24, 64, 64])  # numbers of numpy, too
     packed["images"][1]["width"] = np.int64(SIDE)
+    packed = types.MappingProxyType(packed)
     again = ism.train(packed, in_order, templates=False, threads=1)
     assert again.detect(image) == usual
 
@@ -236,6 +238,10 @@ def test_bad_input_is_a_value_error(model, images):
 
     with pytest.raises(ValueError, match="images: expected an array for image id 12, got none"):
         ism.train(make_coco(), {i: images[i] for i in (7, 11)})
+    with pytest.raises(ValueError, match="expected an array for image 2 of coco\\['images'\\], got 2 arrays"):
+        ism.train(make_coco(), [images[7], images[11]])
+    with pytest.raises(ValueError, match="images: expected a dict by image id, or a list in the order of .*, got int"):
+        ism.train(make_coco(), 3)
     with pytest.raises(ValueError, match="image with id 7: size: expected 128x128, got 64x128"):
         ism.train(make_coco(), {**images, 7: images[7][:, :64]})
     broken = make_coco()
