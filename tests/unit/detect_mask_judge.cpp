@@ -121,8 +121,33 @@ TEST_CASE("a look is compared with the nearest examples of each class, but not w
     CHECK(ism::look_distances(look_of(0, 0), {}, 1)[0].sq_both == ism::LookDistance::far);
 }
 
+TEST_CASE("votes in a region count for each of its features that can vote") {
+    ism::Model model;
+    model.shapes.class_names = {"cup", "box"};
+    const ism::Frame frame{.gray = ism::GrayImage(20, 20)};
+    ism::ThreadPool pool(1);
+    ism::Scene scene{.frame = frame, .model = model, .pool = pool};
+    // Two in the region, of which one has no frame; six more in it that vote for nothing; one outside.
+    for (const float x : {2.0f, 3.0f, 4.0f, 4.0f, 5.0f, 5.0f, 6.0f, 6.0f, 15.0f})
+        scene.features.push_back({.x = x, .y = 5});
+    scene.frames.assign(scene.features.size(), ism::LocalFrame{});
+    scene.frames[1].reset();
+    const ism::RegionMask region{0, 0, ism::Mask(10, 10, 1)};
+    ism::Detection cup = candidate(1, {0, 0, 10, 10}), weaker = candidate(1, {5, 0, 10, 10});
+    cup.support = {{.feature = 0, .weight = 3}, {.feature = 2, .weight = 2}, {.feature = 8, .weight = 9}};
+    weaker.support = {{.feature = 0, .weight = 4}};
+    const auto votes = ism::region_votes(scene, std::vector{weaker, cup}, region);
+    REQUIRE(votes.size() == 2);
+    CHECK(votes[0].weight == Approx(5.0 / (7 + 4)));
+    CHECK(votes[0].fitting == Approx(5.0 / (7 + 4)));  // the box is that of the region
+    CHECK(votes[0].features == Approx(2.0 / (7 + 4)));
+    CHECK(votes[0].hypothesis == 1);
+    CHECK(votes[1].weight == 0);
+    CHECK(votes[1].fitting == 0);
+}
+
 TEST_CASE("the cues of a class are its votes and looks against those of others") {
-    const std::vector<ism::RegionVotes> votes{{2, 1.5, 3, 0}, {1, 0.25, 2, 1}};
+    const std::vector<ism::RegionVotes> votes{{0.2, 0.15, 0.3, 0}, {0.1, 0.025, 0.2, 1}};
     std::vector<ism::LookDistance> looks(3);
     looks[0] = {.sq_color = 0.25, .sq_shape = 1, .sq_both = 1.44, .sq_three_both = 2.25};
     looks[1] = {.sq_color = 1, .sq_shape = 0.64, .sq_both = 1.69, .sq_three_both = 1.96};
@@ -130,9 +155,9 @@ TEST_CASE("the cues of a class are its votes and looks against those of others")
     const ism::RegionOutline outline{0.5, 0.25, 0.01};
     const std::vector<double> first{std::log(13.0),
                                     std::log(11.0),
-                                    std::log(4.0),
+                                    0.3,
                                     std::log(3.0),
-                                    1.5 / 1.8,
+                                    0.15 / 0.177,
                                     0.5,
                                     0.5,
                                     0.4,  //
@@ -157,7 +182,7 @@ TEST_CASE("the cues of a class are its votes and looks against those of others")
     const ism::MaskCues second = ism::mask_cues(votes, looks, outline, 1);
     CHECK(second[0] == Approx(std::log(3.0)));
     CHECK(second[3] == Approx(std::log(13.0)));
-    CHECK(second[4] == Approx(0.25 / 1.8));
+    CHECK(second[4] == Approx(0.025 / 0.177));
     CHECK(second[5] == Approx(1));
     CHECK(second[6] == Approx(-0.5));
     CHECK(second[7] == Approx(-0.1));

@@ -58,10 +58,12 @@ namespace ism {
 }
 
 /// @brief What the votes say of a region for one class: the hypothesis of which the most weight lies in it.
+/// Numbers are per feature of the region that can vote, so that they are those of the same thing further
+/// away, where it has fewer features; a region of very few has smaller ones.
 struct RegionVotes {
     double weight = 0;           ///< of the votes in the region, the most of a hypothesis
     double fitting = 0;          ///< the most of weight · IoU of the boxes of hypothesis and region
-    double features = 0;         ///< that cast that weight
+    double features = 0;         ///< that cast that weight, 0 … 1
     std::size_t hypothesis = 0;  ///< whose votes they are; only with a weight
 };
 
@@ -70,14 +72,17 @@ struct RegionVotes {
                                                            std::span<const Detection> hypotheses,
                                                            const RegionMask& region) {
     std::vector<RegionVotes> of_class(scene.model.shapes.class_names.size());
+    const auto lies_in_region = [&](const Feature& f) {
+        return contains(region, int(std::lround(f.x)), int(std::lround(f.y)));
+    };
+    double each = 4;  // so that one vote of one feature is no certainty
+    for (std::size_t f = 0; f < scene.features.size(); ++f)
+        if (scene.frames[f] && lies_in_region(scene.features[f])) each += 1;
     for (std::size_t h = 0; h < hypotheses.size(); ++h) {
         const Detection& hypothesis = hypotheses[h];
         double weight = 0, features = 0;
-        for (const Support& s : hypothesis.support) {
-            const Feature& f = scene.features[s.feature];
-            if (contains(region, int(std::lround(f.x)), int(std::lround(f.y))))
-                weight += s.weight, features += 1;
-        }
+        for (const Support& s : hypothesis.support)
+            if (lies_in_region(scene.features[s.feature])) weight += s.weight / each, features += 1 / each;
         if (!(weight > 0)) continue;
         RegionVotes& votes = of_class[hypothesis.class_index];
         votes.fitting = std::max(votes.fitting, weight * iou(hypothesis.box, box_of(region)));
@@ -149,11 +154,11 @@ struct LookDistance {
     MaskCues cues{};
     std::size_t at = 0;
     const auto add = [&](double value) { cues[at++] = static_cast<float>(value); };
-    add(std::log1p(8 * own.fitting));
-    add(std::log1p(5 * own.weight));
-    add(std::log1p(own.features));
-    add(std::log1p(8 * rival));
-    add(own.fitting / (all + 0.05));  // vote_cue_count so far
+    add(std::log1p(80 * own.fitting));
+    add(std::log1p(50 * own.weight));
+    add(own.features);
+    add(std::log1p(80 * rival));
+    add(own.fitting / (all + 0.002));  // vote_cue_count so far
     for (const auto distance : {&LookDistance::sq_color, &LookDistance::sq_shape, &LookDistance::sq_both,
                                 &LookDistance::sq_three_both}) {
         double other = LookDistance::far;
