@@ -40,7 +40,9 @@ TEST_CASE("Results that are written come back equal") {
          .segmentation = ism::compress_mask(mask),
          .position_m = ism::Point3{0.1, -0.2, 1.3},
          .depth_m = 1.3,
-         .scale = 0.7}};
+         .scale = 0.7,
+         .position_error_m = 0.02,
+         .class_name = "tea cup"}};
     ism::write_results(folder / "r.json", results);
     const std::vector<Result> read = ism::read_results(folder / "r.json");
     REQUIRE(read.size() == 2);
@@ -57,7 +59,12 @@ TEST_CASE("Results that are written come back equal") {
     }
     CHECK(std::isnan(read[0].depth_m));
     CHECK(read[1].depth_m == 1.3);
-    CHECK(ism::read_text(folder / "r.json").find(R"("depth_m":null)") != std::string::npos);
+    CHECK(std::isnan(read[0].position_error_m));
+    CHECK(read[1].position_error_m == 0.02);
+    CHECK((read[0].class_name.empty() && read[1].class_name == "tea cup"));
+    const std::string text = ism::read_text(folder / "r.json");  // what is not known is not there
+    CHECK(text.find("null") == std::string::npos);
+    CHECK(text.find("depth_m") == text.rfind("depth_m"));
 
     ism::write_results(folder / "none.json", std::vector<Result>{});
     CHECK(ism::read_results(folder / "none.json").empty());
@@ -89,6 +96,9 @@ TEST_CASE("Results that make no sense are refused with the place") {
           ", result 1: bbox: expected a box, or a segmentation to take it from, got neither");
     CHECK(results_error(good + R"(,"depth_m":-1}])") ==
           ", result 1: depth_m: expected metres above 0, got -1");
+    CHECK(results_error(good + R"(,"position_error_m":-1}])") ==
+          ", result 1: position_error_m: expected metres, 0 or more, got -1");
+    CHECK(results_error(good + R"(,"class":7}])") == ", result 1: class: expected a text, got 7");
     CHECK(results_error(good + R"(,"scale":0}])") == ", result 1: scale: expected a number above 0, got 0");
     CHECK(results_error(good + R"(,"probability":1.5}])") ==
           ", result 1: probability: expected a number from 0 to 1, got 1.5");

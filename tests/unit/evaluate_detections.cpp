@@ -81,12 +81,40 @@ TEST_CASE("Detections become results with the data set's numbers and masks of th
           "class of a detection: expected one of 1 categories, got 1");
 }
 
+TEST_CASE("Results have boxes within the image and the model's names and numbers of classes") {
+    const ism::DatasetImage image = small_set().images[0];
+    ism::Detections found;
+    found.objects = {detection(1, 25, 15, 0.9), detection(0, -4, -3, 0.8), detection(0, 40, 2, 0.7)};
+    ism::ShapeModel shapes{.class_names = {"cup", "bowl"}, .category_ids = {70, 30}};
+    const auto results = ism::to_results(found, image, shapes);
+    REQUIRE(results.size() == 2);  // the third is not in the image
+    CHECK(results[0].box == ism::Box{25, 15, 5, 5});
+    CHECK(results[1].box == ism::Box{0, 0, 6, 7});
+    CHECK((results[0].category_id == 30 && results[0].class_name == "bowl"));
+    CHECK((results[1].category_id == 70 && results[1].class_name == "cup"));
+    shapes.category_ids.clear();
+    CHECK(ism::to_results(found, image, shapes)[0].category_id == 2);
+}
+
+TEST_CASE("A result is of the class that it names, whatever its number") {
+    const ism::Dataset set = small_set();
+    std::vector<ism::Result> results = {
+        {.image_id = 90, .category_id = 3, .box = {0, 0, 10, 10}, .score = 1, .class_name = "cup"}};
+    CHECK(ism::evaluate(set, results).classes[0].true_positives == 1);
+    results[0].category_id = 1234;
+    CHECK(ism::evaluate(set, results).classes[0].true_positives == 1);
+    results[0].class_name = "goose";
+    CHECK(error_message([&] { (void)ism::evaluate(set, results); }) ==
+          "result 0: class: expected a category of data set 'small.json', got 'goose'");
+}
+
 TEST_CASE("Detections are measured as the results made of them") {
     const ism::Dataset set = small_set();
-    const std::vector<ism::Detections> found = small_detections();
+    std::vector<ism::Detections> found = small_detections();
+    for (const int y : {-4, -30}) found[0].objects.push_back(detection(0, -3, y, 0.05));
     const ism::Evaluation direct = ism::evaluate(set, found);
     CHECK(direct.classes[0].objects == 2);
-    CHECK(direct.classes[0].detections == 3);
+    CHECK(direct.classes[0].detections == 4);  // one of the two is in the image
     CHECK(direct.classes[0].true_positives == 2);
     CHECK(direct.classes[1].true_positives == 1);
     CHECK(direct.classes[0].figures.ap == 1);
@@ -104,7 +132,7 @@ TEST_CASE("Detections are measured as the results made of them") {
     ism::Dataset crowded = set;
     crowded.images[0].objects[0].crowd = true;
     CHECK(ism::evaluate(crowded, found).classes[0].objects == 1);
-    CHECK(ism::evaluate(crowded, found).classes[0].detections == 2);
+    CHECK(ism::evaluate(crowded, found).classes[0].detections == 2);  // those that meet the crowd are ignored
 }
 
 TEST_CASE("Detections that are not those of the data set are refused") {

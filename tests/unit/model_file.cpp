@@ -89,6 +89,7 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
         {ism::settings_of(dense), ism::Codebook(128, 0.1)},
         {ism::settings_of(ism::Extractor<ism::HarrisLaplace, ism::GrayPatch>{}), ism::Codebook(625, 1234.5)}};
     model.shapes.class_names = {"car", "k\xC3\xBChe \"x\""};
+    model.shapes.category_ids = {-7, 1LL << 40};
     for (std::uint32_t i = 0; i < 3; ++i) {
         ism::Mask mask(cells + int(i), cells);
         for (std::uint8_t& cell : mask.pixels())
@@ -158,6 +159,7 @@ void check_equal(const ism::Model& a, const ism::Model& b) {
               ism::detail::settings_to_json(b.channels[c].features, "b"));
     }
     CHECK(a.shapes.class_names == b.shapes.class_names);
+    CHECK(a.shapes.category_ids == b.shapes.category_ids);
     CHECK(same_bytes(a.shapes.occurrences.offsets(), b.shapes.occurrences.offsets()));
     CHECK(same_bytes(a.shapes.occurrences.values(), b.shapes.occurrences.values()));
     CHECK(a.box_classifier.weights == b.box_classifier.weights);
@@ -246,6 +248,7 @@ TEST_CASE("Models come back bit for bit, in the same bytes every time") {
     ism::Model sparse = model;  // of a surface nothing but where it is; no frames, judge or inner model
     sparse.rgbd.clear();
     sparse.mask_judge = {};
+    sparse.shapes.category_ids.clear();
     sparse.shapes.frames.clear();
     for (ism::TrainingObject& object : sparse.shapes.objects) object.points_m.clear();
     ism::save_model(folder / "m", sparse);
@@ -305,6 +308,8 @@ TEST_CASE("A model that could not be read again is not written") {
     refuses("upsampling", [](ism::Model& m) { m.channels[0].features.options.upsampling = 1000; });
     refuses("words with occurrences", [](ism::Model& m) { m.shapes.occurrences.push_back({}); });
     refuses("each once", [](ism::Model& m) { m.shapes.class_names[1] = "car"; });
+    refuses("category_ids: expected each once", [](ism::Model& m) { m.shapes.category_ids[1] = -7; });
+    refuses("category_ids: expected an array of 2", [](ism::Model& m) { m.shapes.category_ids.pop_back(); });
     refuses("calibration", [](ism::Model& m) { m.calibration.curves.pop_back(); });
     refuses("template_calibration", [](ism::Model& m) { m.template_calibration.curves.pop_back(); });
     refuses("word_weight", [](ism::Model& m) { m.word_weight = -1; });

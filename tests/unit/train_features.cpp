@@ -126,6 +126,17 @@ TEST_CASE("more examples of a class that is known join it by name") {
     CHECK(joined.views[9].mirrored);
 }
 
+TEST_CASE("category ids of classes that are joined stay, and a new class never gets one that is taken") {
+    ism::TrainingFeatures first, more;
+    first.class_names = {"a", "b"}, first.category_ids = {5, 2};
+    more.class_names = {"c", "b", "d"}, more.category_ids = {5, 9, 8};
+    const auto joined = ism::append(first, more);
+    CHECK(joined.class_names == std::vector<std::string>{"a", "b", "c", "d"});
+    CHECK(joined.category_ids == std::vector<std::int64_t>{5, 2, 6, 8});
+    more.category_ids.clear();
+    CHECK(ism::append(first, more).category_ids.empty());
+}
+
 TEST_CASE("training features that were found in another way cannot be joined") {
     const auto own = features_of(std::span(class_names).first(1), pictures_of(0));
     ism::TrainingFeatures other = own;

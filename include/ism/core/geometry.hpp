@@ -45,6 +45,11 @@ struct Box {
             std::max(0.0, std::min(a.y + a.height, b.y + b.height) - y)};
 }
 
+/// @brief The part of a box that is in an image of this size; without area where there is none.
+[[nodiscard]] constexpr Box clipped(const Box& box, int image_width, int image_height) {
+    return intersection(box, {0, 0, double(image_width), double(image_height)});
+}
+
 /// @brief Intersection over union of two boxes, 0 … 1; 0 where both are empty.
 [[nodiscard]] constexpr double iou(const Box& a, const Box& b) {
     const double common = intersection(a, b).area();

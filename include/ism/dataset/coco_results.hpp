@@ -26,7 +26,7 @@ namespace ism {
 struct Result {
     std::int64_t image_id = 0;                                      ///< DatasetImage::id
     std::int64_t category_id = 0;                                   ///< of Dataset::category_ids
-    Box box;                                                        ///< pixels; may reach outside the image
+    Box box;                                                        ///< pixels
     double score = 0;                                               ///< larger is more confident
     double probability = std::numeric_limits<double>::quiet_NaN();  ///< 0 … 1, comparable between images and
                                                                     ///< classes; NaN = not known
@@ -34,6 +34,8 @@ struct Result {
     std::optional<Point3> position_m = {};  ///< in the camera frame
     double depth_m = no_depth;              ///< along the optical axis, metres; NaN = not known
     double scale = 1;                       ///< size relative to the reference size of its class
+    double position_error_m = std::numeric_limits<double>::quiet_NaN();  ///< standard error; NaN = not known
+    std::string class_name = {};  ///< what category_id stands for; empty = not told
 };
 
 namespace detail {
@@ -68,6 +70,13 @@ namespace detail {
         result.scale = to_number(*scale, "scale", place);
         if (!(result.scale > 0)) refuse_json(place, "scale", "a number above 0", json_text(*scale));
     }
+    if (const Json* error = optional_member(record, "position_error_m", place)) {
+        result.position_error_m = to_number(*error, "position_error_m", place);
+        if (!(result.position_error_m >= 0))
+            refuse_json(place, "position_error_m", "metres, 0 or more", json_text(*error));
+    }
+    if (const Json* name = optional_member(record, "class", place))
+        result.class_name = to_text(*name, "class", place);
     return result;
 }
 
@@ -77,17 +86,21 @@ namespace detail {
                    {"bbox", box_to_json(result.box)},
                    {"score", result.score},
                    {"scale", result.scale}};
-    record["depth_m"] = std::isnan(result.depth_m) ? Json(nullptr) : Json(result.depth_m);
+    if (!result.class_name.empty()) record["class"] = result.class_name;
+    if (!std::isnan(result.depth_m)) record["depth_m"] = result.depth_m;
     if (!std::isnan(result.probability)) record["probability"] = result.probability;
     if (result.segmentation) record["segmentation"] = rle_to_json(*result.segmentation);
     if (result.position_m) record["position_m"] = position_to_json(*result.position_m);
+    if (result.position_m && !std::isnan(result.position_error_m))
+        record["position_error_m"] = result.position_error_m;
     return record;
 }
 
 }  // namespace detail
 
 /// @brief Writes results as COCO's array, one record a line: image_id, category_id, bbox, score, segmentation
-/// {size, counts}; beside these probability, scale, depth_m (null = not known) and position_m [x, y, z].
+/// {size, counts}; beside these scale and, where they are known, class (its name), probability, depth_m,
+/// position_m [x, y, z] and position_error_m.
 /// @throws FileError where the file cannot be written, or read_results() would refuse it; nothing is written
 /// then.
 inline void write_results(const std::filesystem::path& path, std::span<const Result> results) {
@@ -101,8 +114,8 @@ inline void write_results(const std::filesystem::path& path, std::span<const Res
     write_file(path, detail::json_lines(records, place) + "\n");
 }
 
-/// @brief Reads a COCO array of results, of this or of another program: what only we write (scale, depth_m,
-/// position_m) may be missing, and so may either bbox or segmentation.
+/// @brief Reads a COCO array of results, of this or of another program: what only we write (scale, class,
+/// depth_m, position_m …) may be missing, and so may either bbox or segmentation.
 /// @throws FileError, naming the file and the result's place in it, where the file cannot be read, is no such
 /// array, or a value makes no sense.
 [[nodiscard]] inline std::vector<Result> read_results(const std::filesystem::path& path) {

@@ -69,7 +69,8 @@ namespace ism {
                         if (!object.crowd) labels.push_back({std::uint32_t(object.class_index), object.box});
                     return labels;
                 },
-            .image = [&dataset](std::size_t i) { return read_training_image(dataset.images[i]); }};
+            .image = [&dataset](std::size_t i) { return read_training_image(dataset.images[i]); },
+            .category_ids = dataset.category_ids};
 }
 
 }  // namespace ism

@@ -57,32 +57,40 @@ struct DatasetTruth {
     return truth;
 }
 
-/// Results with the data set's image and category numbers as indices.
+/// Results with the data set's image and category numbers as indices; a result that names its class is of the
+/// class of that name, whatever its number.
 [[nodiscard]] inline std::vector<FoundObject> found_in(const Dataset& dataset,
                                                        std::span<const Result> results) {
     std::map<std::int64_t, std::size_t> image_of;
     std::map<std::int64_t, std::uint32_t> class_of;
+    std::map<std::string, std::uint32_t> class_named;
     for (std::size_t i = 0; i < dataset.images.size(); ++i) image_of[dataset.images[i].id] = i;
     for (std::uint32_t c = 0; c < dataset.category_ids.size(); ++c) class_of[dataset.category_ids[c]] = c;
+    for (std::uint32_t c = 0; c < dataset.class_names.size(); ++c) class_named[dataset.class_names[c]] = c;
     const std::string set =
         dataset.source.empty() ? "the data set" : "data set '" + one_line(dataset.source.string()) + "'";
     std::vector<FoundObject> found;
     for (const Result& result : results) {
         const auto image = image_of.find(result.image_id);
+        const auto named = class_named.find(result.class_name);
         const auto category = class_of.find(result.category_id);
         const std::string place = join_text("result ", found.size(), ": ");
         expect(image != image_of.end(), lazy_text(place, "image_id"), lazy_text("an image of ", set),
                result.image_id);
-        expect(category != class_of.end(), lazy_text(place, "category_id"), lazy_text("a category of ", set),
-               result.category_id);
-        found.push_back({image->second, category->second, result.box, result.score});
+        expect(result.class_name.empty() || named != class_named.end(), lazy_text(place, "class"),
+               lazy_text("a category of ", set), lazy_text("'", one_line(result.class_name), "'"));
+        expect(named != class_named.end() || category != class_of.end(), lazy_text(place, "category_id"),
+               lazy_text("a category of ", set), result.category_id);
+        found.push_back({image->second, named != class_named.end() ? named->second : category->second,
+                         result.box, result.score});
     }
     return found;
 }
 
 }  // namespace detail
 
-/// @brief Measures results against a data set; crowds are ignored, masks are compared where both have one,
+/// @brief Measures results against a data set; a result is of the class that it names, else of its category
+/// id. Crowds are ignored, masks are compared where both have one,
 /// two at a time in memory.
 /// @throws Error, naming the result, for an image or category number that the data set lacks, a mask of
 /// another size than the image, or a score or box that is not finite.

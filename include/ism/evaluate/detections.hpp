@@ -28,7 +28,8 @@ namespace ism {
 
 /// @brief Measures detections, those of each image of a data set in its order, against the data set. The
 /// classes of the model must be those of the data set in its order: select_classes() puts them so. Crowds are
-/// ignored; masks are compared where the data set has them, two at a time in memory.
+/// ignored, boxes are clipped to their image; masks are compared where the data set has them, two at a time
+/// in memory.
 /// @throws Error where there are detections of more or fewer images, of a class that the data set lacks, or a
 /// score or box is not finite; FileError as read_mask() does.
 template <MatchRule R>
@@ -40,8 +41,14 @@ template <MatchRule R>
     std::vector<FoundObject> found;
     std::vector<const Segmentation*> segmentations;
     for (std::size_t i = 0; i < detections.size(); ++i) {
-        for (FoundObject& object : found_objects(detections[i].objects, i)) found.push_back(object);
-        for (const Detection& object : detections[i].objects) segmentations.push_back(&object.segmentation);
+        const std::vector<FoundObject> objects = found_objects(detections[i].objects, i);
+        for (std::size_t k = 0; k < objects.size(); ++k) {
+            FoundObject object = objects[k];
+            object.box = clipped(object.box, dataset.images[i].width, dataset.images[i].height);
+            if (!(object.box.area() > 0)) continue;
+            found.push_back(object);
+            segmentations.push_back(&detections[i].objects[k].segmentation);
+        }
     }
     const auto overlap = [&](std::size_t f, std::size_t t) {
         const DatasetImage& image = dataset.images[truth.where[t].first];

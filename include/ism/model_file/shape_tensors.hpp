@@ -81,6 +81,20 @@ inline void pack_mask(const Mask& mask, std::vector<std::uint8_t>& runs) {
     return names;
 }
 
+/// Numbers of the classes, all different; none where the file has none.
+[[nodiscard]] inline std::vector<std::int64_t> read_category_ids(const TensorFile& file,
+                                                                 std::size_t classes) {
+    if (!file.metadata.contains("category_ids")) return {};
+    const std::string place = file.source + ", category_ids";
+    const Json list = parse_json(metadata_text(file, "category_ids"), place);
+    if (!list.is_array() || list.size() != classes)
+        throw FileError(join_text(place, ": expected an array of ", classes, ", got ", json_text(list)));
+    std::vector<std::int64_t> ids;
+    for (const Json& id : list) ids.push_back(to_integer(id, "id", place));
+    expect<FileError>(std::set(ids.begin(), ids.end()).size() == ids.size(), place, "each once", "one twice");
+    return ids;
+}
+
 inline void objects_to_tensors(std::span<const TrainingObject> objects, TensorFile& file) {
     std::vector<float> sizes;
     std::vector<std::uint32_t> classes, sides;
@@ -211,8 +225,10 @@ inline void check_occurrence(const Occurrence& o, std::span<const TrainingObject
 
 inline void shapes_to_tensors(const ShapeModel& shapes, TensorFile& file) {
     // A member that is added to ShapeModel does not compile here until it is kept too.
-    const auto& [class_names, objects, occurrences, frames] = shapes;  // frames: frames_to_tensors()
+    const auto& [class_names, category_ids, objects, occurrences, frames] =
+        shapes;  // frames: frames_to_tensors()
     file.metadata["class_names"] = dump_json(Json(class_names), file.source + ": class names");
+    if (!category_ids.empty()) file.metadata["category_ids"] = Json(category_ids).dump();
     objects_to_tensors(objects, file);
     occurrences_to_tensors(occurrences.values(), "occurrence_", file);
     file.tensors["word_occurrences"] = offsets_tensor(occurrences.offsets());
@@ -221,6 +237,7 @@ inline void shapes_to_tensors(const ShapeModel& shapes, TensorFile& file) {
 /// Reads what shapes_to_tensors() wrote, for a model of `words` words.
 [[nodiscard]] inline ShapeModel shapes_from_tensors(const TensorFile& file, std::size_t words) {
     ShapeModel shapes{.class_names = read_class_names(file)};
+    shapes.category_ids = read_category_ids(file, shapes.class_names.size());
     shapes.objects = objects_from_tensors(file, shapes.class_names.size());
     auto occurrences = occurrences_from_tensors(file, "occurrence_", shapes.objects);
     auto offsets = offsets_from_tensor(file, "word_occurrences", words, occurrences.size());

@@ -78,7 +78,8 @@ inline void features_to_tensor(std::span<const Feature> features, const std::str
 inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
     // A member that is added to TrainingFeatures does not compile here until it is kept too, or is known to
     // be in the model.
-    [[maybe_unused]] const auto& [class_names, objects, settings, samples, views, summary] = all;
+    [[maybe_unused]] const auto& [class_names, category_ids, objects, settings, samples, views, summary] =
+        all;
     for (std::size_t c = 0; c < samples.size(); ++c) {
         const std::string prefix = join_text("training_", c, "_");
         occurrences_to_tensors(samples[c].occurrences, prefix, file);
@@ -131,7 +132,9 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
         throw FileError(file.source +
                         ": expected a model with training features, got one without (train with "
                         "--growable)");
-    TrainingFeatures all{.class_names = model.shapes.class_names, .objects = model.shapes.objects};
+    TrainingFeatures all{.class_names = model.shapes.class_names,
+                         .category_ids = model.shapes.category_ids,
+                         .objects = model.shapes.objects};
     all.summary = model.training;
     const std::size_t classes = all.class_names.size();
     const auto sides = values<std::uint32_t>(file, "training_views", {any_length, 5});

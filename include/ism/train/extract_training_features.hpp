@@ -148,6 +148,8 @@ private:
     expect(classes > 0, "training: number of classes", "1 or more", 0);
     expect(set.size > 0, "training: number of images", "1 or more", 0);
     expect(!extractors.empty(), "training: number of extractors", "1 or more", 0);
+    expect(set.category_ids.empty() || set.category_ids.size() == classes, "training: category ids",
+           lazy_text("none or ", classes), set.category_ids.size());
     expect(options.max_features > 0, "TrainingFeatureOptions::max_features", "1 or more", 0);
 
     std::vector<double> sizes_px;
@@ -189,7 +191,8 @@ private:
         counter.step();
     });
 
-    TrainingFeatures all{.class_names = {class_names.begin(), class_names.end()}};
+    TrainingFeatures all{.class_names = {class_names.begin(), class_names.end()},
+                         .category_ids = set.category_ids};
     for (const AnyExtractor& extractor : extractors) {
         all.settings.push_back(extractor.settings());
         all.samples.push_back({{}, Descriptors<float>(extractor.settings().dimension)});

@@ -27,7 +27,9 @@ namespace detail {
 /// Words of each channel, and at each the training features that match it.
 [[nodiscard]] inline Model learn_occurrences(const TrainingFeatures& features, const TrainOptions& options) {
     Model model{.channels = {},
-                .shapes = {.class_names = features.class_names, .objects = features.objects},
+                .shapes = {.class_names = features.class_names,
+                           .category_ids = features.category_ids,
+                           .objects = features.objects},
                 .training = features.summary};
     std::vector<Occurrence> seen;
     std::vector<Match> matches;

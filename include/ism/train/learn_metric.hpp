@@ -84,7 +84,9 @@ struct MetricWords {
 
     Model model{
         .channels = {{features.settings[0], Codebook(features.settings[0].dimension, 2), options.neighbours}},
-        .shapes = {.class_names = features.class_names, .objects = features.objects},
+        .shapes = {.class_names = features.class_names,
+                   .category_ids = features.category_ids,
+                   .objects = features.objects},
         .training = features.summary};
     Codebook& codebook = model.channels[0].codebook;
     for (std::size_t i = 0; i < views.size(); ++i) {

@@ -63,7 +63,9 @@ namespace ism {
     expect(model.box_classifier.empty() && model.calibration.empty(), "words to keep",
            "a model without classifier and calibration", "one with them, which have to be learnt after");
     Model kept{.channels = {},
-               .shapes = {.class_names = model.shapes.class_names, .objects = model.shapes.objects}};
+               .shapes = {.class_names = model.shapes.class_names,
+                          .category_ids = model.shapes.category_ids,
+                          .objects = model.shapes.objects}};
     kept.training = model.training;
     auto next = chosen.begin();
     for (std::size_t c = 0; c < model.channels.size(); ++c) {

@@ -52,6 +52,7 @@ struct TrainingView {
 /// joined with that of other images, and learnt from again with other options.
 struct TrainingFeatures {
     std::vector<std::string> class_names = {};
+    std::vector<std::int64_t> category_ids = {};  ///< the file's number of each class; empty = not known
     std::vector<TrainingObject> objects = {};
     std::vector<FeatureSettings> settings =
         {};  ///< of each channel, with the upsampling chosen from the data
@@ -82,6 +83,18 @@ namespace detail {
     return index;
 }
 
+/// The numbers of classes that were joined; a class that is new gets another one where its own is taken.
+[[nodiscard]] inline std::vector<std::int64_t> join_category_ids(std::vector<std::int64_t> ids,
+                                                                 std::span<const std::int64_t> more,
+                                                                 std::span<const std::uint32_t> class_of) {
+    for (std::size_t c = 0; c < more.size(); ++c) {
+        if (class_of[c] < ids.size()) continue;
+        const bool taken = std::find(ids.begin(), ids.end(), more[c]) != ids.end();
+        ids.push_back(taken ? *std::max_element(ids.begin(), ids.end()) + 1 : more[c]);
+    }
+    return ids;
+}
+
 /// Numbers the features through all channels.
 inline void number_features(std::vector<TrainingSamples>& samples) {
     std::uint32_t feature = 0;
@@ -91,7 +104,8 @@ inline void number_features(std::vector<TrainingSamples>& samples) {
 
 }  // namespace detail
 
-/// @brief Training features of more images: of more classes, or more examples of the same (by name).
+/// @brief Training features of more images: of more classes, or more examples of the same (by name). Category
+/// ids that are known stay; a new class gets the next free one where its own is taken.
 /// @throws Error where the features were found and described in another way.
 [[nodiscard]] inline TrainingFeatures append(TrainingFeatures all, TrainingFeatures more) {
     expect(all.settings.size() == more.settings.size(), "training features to append: channels",
@@ -105,6 +119,10 @@ inline void number_features(std::vector<TrainingSamples>& samples) {
                a.options.upsampling, b.options.upsampling);
     }
     const std::vector<std::uint32_t> class_of = detail::join_names(all.class_names, more.class_names);
+    if (all.category_ids.empty() || more.category_ids.empty())
+        all.category_ids.clear();
+    else
+        all.category_ids = detail::join_category_ids(all.category_ids, more.category_ids, class_of);
     const auto objects = static_cast<std::uint32_t>(all.objects.size());
     for (TrainingObject& object : more.objects) {
         object.class_index = class_of[object.class_index];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct TrainingSet {
     std::size_t size = 0;  ///< number of images
     Function<std::vector<ObjectLabel>(std::size_t i)> labels;
     Function<TrainingImage(std::size_t i)> image;
+    std::vector<std::int64_t> category_ids = {};  ///< the file's number of each class; empty = none
 };
 
 /// @brief Images in memory as a training set.
