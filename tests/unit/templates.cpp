@@ -85,6 +85,12 @@ TEST_CASE("templates judge and place what votes propose") {
         CHECK(std::size_t(std::count_if(found.objects.begin(), found.objects.end(), [](const auto& object) {
                   return object.probability >= 0.5;
               })) == sure.objects.size());
+        probable.options.min_probability = 1;
+        const auto none = ism::detect(model, test.frame, probable, 1);
+        CHECK(none.objects.empty());
+        REQUIRE(none.next_best);  // the best guess is known all the same
+        for (const auto& object : found.objects) CHECK(object.probability <= none.next_best->probability);
+        CHECK_FALSE(found.next_best);
         const auto two = ism::detect(model, test.frame, recognition, 2);
         REQUIRE(two.objects.size() == found.objects.size());
         for (std::size_t i = 0; i < two.objects.size(); ++i) {

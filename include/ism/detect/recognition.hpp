@@ -84,7 +84,10 @@ template <Rescorer R, Segmenter S, Verifier V>
         drop_if(result.objects, [&](const Detection& object) {
             expect(!std::isnan(object.probability), "DetectOptions::min_probability",
                    "0 where votes alone judge, or the model knows no probabilities", options.min_probability);
-            return object.probability < options.min_probability;
+            if (object.probability >= options.min_probability) return false;
+            if (!result.next_best || object.probability > result.next_best->probability)
+                result.next_best = object;
+            return true;
         });
     stats.verify_ms = watch.lap_ms();
     if (!masks_first) segment(result.objects);
