@@ -14,6 +14,7 @@
 
 #include "ism/core/frame.hpp"
 #include "ism/dataset/dataset.hpp"
+#include "ism/dataset/depth_scale.hpp"
 #include "ism/io/images.hpp"
 #include "ism/io/paths.hpp"
 #include "ism/train/training_image.hpp"
@@ -24,7 +25,7 @@ namespace ism {
 /// @brief Reads an image's brightness and colour, its depth in metres where it has a depth file, and its
 /// camera.
 /// @throws FileError, naming the file, where one cannot be read, is of another size than the data set says,
-/// is smaller than 16×16, or has no depth reading at all.
+/// is smaller than 16×16, has no depth reading at all, or a depth scale that check_depth_scale() refuses.
 [[nodiscard]] inline Frame read_frame(const DatasetImage& image) {
     const auto check_size = [&](const std::filesystem::path& file, const auto& pixels) {
         if (pixels.width() != image.width || pixels.height() != image.height)
@@ -38,6 +39,7 @@ namespace ism {
         const RawDepth raw = read_raw_depth(image.depth_file);
         check_size(image.depth_file, raw);
         frame.depth_m = to_metres(raw, image.depth_scale);
+        at_place(file_text(image.depth_file), [&] { check_depth_scale(frame.depth_m, image.depth_scale); });
     }
     frame.camera = image.camera;
     at_place(file_text(image.depth_file.empty() ? image.file : image.depth_file), [&] { check(frame); });
