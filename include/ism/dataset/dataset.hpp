@@ -17,6 +17,7 @@
 #include "ism/core/camera.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/nearest_name.hpp"
 #include "ism/dataset/polygon.hpp"
 #include "ism/dataset/rle.hpp"
 #include "ism/io/limits.hpp"
@@ -97,7 +98,7 @@ struct Dataset {
     for (const std::string& name : names) {
         const auto found = std::find(dataset.class_names.begin(), dataset.class_names.end(), name);
         expect(found != dataset.class_names.end(), "class to select", lazy_text("one of: ", known),
-               lazy_text("'", name, "'"));
+               lazy_text("'", name, "'", did_you_mean(name, dataset.class_names)));
         const auto index = std::size_t(found - dataset.class_names.begin());
         expect(new_index.emplace(index, std::uint32_t(part.class_names.size())).second, "class to select",
                "each name once", lazy_text("'", name, "' twice"));
