@@ -43,6 +43,7 @@ struct TrainCommand {
     bool templates = true;                 ///< also learn a template of each class
     bool depth = true;                     ///< also learn from depth, where images have it
     bool growable = false;                 ///< keep the training features, for add_to
+    std::string program = "ism";           ///< as it was called, for the command to type next
 };
 
 /// What is less probable is not told where templates judge: a place without objects shall look empty.
@@ -60,12 +61,14 @@ struct SearchOptions {
 
 struct DetectCommand {
     std::filesystem::path model;
-    std::filesystem::path data, image;  ///< one of them
-    std::filesystem::path depth = {};   ///< of `image`
-    double depth_scale = 0;             ///< metres per unit
+    std::filesystem::path data = {};       ///< or
+    std::vector<std::string> images = {};  ///< files, folders, patterns, "-"
+    std::filesystem::path depth = {};      ///< of the one image
+    double depth_scale = 0;                ///< metres per unit
     std::optional<ism::Camera> camera = {};
     SearchOptions search = {};
-    std::filesystem::path results;
+    std::filesystem::path results = {}, json = {};           ///< empty = none, "-" = standard output
+    bool show = false;                                       ///< write an overlay beside each image
     std::filesystem::path overlay_folder = {}, report = {};  ///< empty = none
     unsigned threads = 0;
     bool skip_bad = false;
@@ -83,6 +86,7 @@ struct DemoCommand {
     bool small = false;  ///< a few pictures only
     std::uint64_t seed = 1;
     unsigned threads = 0;
+    std::string program = "ism";  ///< as it was called, for the commands to type next
 };
 
 // Each runs a command, prints its summary on stdout, and throws ism::Error where something is wrong.

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <deque>
+#include <sstream>
 
 #include "commands.hpp"
 #include "extractors.hpp"
@@ -14,6 +16,7 @@
 #include "progress.hpp"
 #include "spaces.hpp"
 #include "toy/toy_set.hpp"
+#include <unistd.h>
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/read_images.hpp"
@@ -152,6 +155,17 @@ ism::ReportSection lesson_section(const ism::Dataset& train) {
     return section;
 }
 
+/// The command that opens a page, or its address where no such command is there.
+std::string opening_text(const fs::path& page) {
+    const std::string path = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "";
+    std::istringstream folders(path);
+    for (std::string folder; std::getline(folders, folder, ':');)
+        for (const char* opener : {"xdg-open", "open"})
+            if (access((fs::path(folder) / opener).c_str(), X_OK) == 0)
+                return std::string(opener) + " " + shell_word(page.string());
+    return "file://" + fs::absolute(page).string();
+}
+
 }  // namespace
 
 void run_demo(const DemoCommand& command) {
@@ -200,7 +214,7 @@ void run_demo(const DemoCommand& command) {
             const Stopwatch search_watch;
             const ism::Detections found = find_objects(scene, search);
             scenes[i].seconds[s] = look_seconds + search_watch.seconds();
-            scenes[i].results[s] = ism::to_results(found, image, set.test.category_ids);
+            scenes[i].results[s] = ism::to_results(found, image, shapes);
             if (space_names[s] != shown_space) continue;
             const ism::RgbImage picture = ism::read_rgb(image.file);
             overlays.write(i, picture, found, shapes.class_names);
@@ -258,7 +272,13 @@ void run_demo(const DemoCommand& command) {
     std::printf("Rendered in %.0f s, learnt in %.1f s.\n\n", render_seconds, train_seconds);
     std::fputs(ism::align_columns(rows).c_str(), stdout);
     std::printf("\nMeans over the classes; a box is right from an IoU of 0.5; one thread an image.\n");
-    std::printf("Report: %s. All in %.0f s.\n", (folder / "report.html").string().c_str(), watch.seconds());
+    std::printf("All in %.0f s. To see it:\n  %s\n", watch.seconds(),
+                opening_text(folder / "report.html").c_str());
+    const char* const program = command.program.c_str();
+    std::printf("Next, with pictures of your own, labelled in COCO JSON:\n");
+    std::printf("  %s train --data train.json -o model.safetensors\n", program);
+    std::printf("  %s detect --model model.safetensors --show photo.jpg\n", program);
+    std::printf("  %s detect --model model.safetensors --data test.json --report found.html\n", program);
 }
 
 }  // namespace program

@@ -15,6 +15,11 @@ void run_info(const std::filesystem::path& path) {
     std::printf("format          ism model, version %lld\n",
                 static_cast<long long>(ism::detail::model_format_version));
     std::printf("classes         %s\n", list_text(model.shapes.class_names).c_str());
+    if (!model.shapes.category_ids.empty()) {
+        std::vector<std::string> ids;
+        for (const std::int64_t id : model.shapes.category_ids) ids.push_back(ism::join_text(id));
+        std::printf("category ids    %s\n", list_text(ids).c_str());
+    }
     std::printf("images          %zu\n", training.images);
     std::printf("objects         %zu\n", model.shapes.objects.size());
     std::printf("features        %zu of %zu on the objects\n", training.features_used,

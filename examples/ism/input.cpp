@@ -3,9 +3,11 @@
 #include "input.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <optional>
 #include <random>
+#include <string_view>
 #include <system_error>
 
 #include "progress.hpp"
@@ -20,12 +22,35 @@ namespace program {
 
 namespace fs = std::filesystem;
 
+std::string shell_word(const std::string& text) {
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::string_view("/._-+,:@%=").find(char(c)) != std::string_view::npos;
+    };
+    if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+}
+
 std::string short_name(const ism::Dataset& dataset, const ism::DatasetImage& image) {
     return ism::path_to_utf8(ism::relative_to(image.file, dataset.source.parent_path()));
 }
 
+void Doubts::add(const fs::path& file, const std::string& text) {
+    if (text.empty()) return;
+    const std::lock_guard lock(mutex_);
+    texts_.insert(ism::file_text(file) + ": " + text);
+}
+
+void Doubts::tell() const {
+    if (texts_.empty()) return;
+    std::string line = *texts_.begin();
+    if (texts_.size() > 1) line += ism::join_text(" (and ", texts_.size() - 1, " other files)");
+    std::fprintf(stderr, "ism: note: %s\n", line.c_str());
+}
+
 std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
-                         const std::function<void(const ism::DatasetImage&)>& read) {
+                         const std::function<void(ism::DatasetImage&)>& read) {
     constexpr std::size_t most_named = 20;
     const std::size_t count = dataset.images.size();
     std::vector<std::optional<std::string>> faults(count);

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <mutex>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,15 +27,31 @@ template <class Texts>
     return list;
 }
 
+/// A text as a shell takes it as one word.
+[[nodiscard]] std::string shell_word(const std::string& text);
+
 /// The name of an image as seen from its data set's folder.
 [[nodiscard]] std::string short_name(const ism::Dataset& dataset, const ism::DatasetImage& image);
+
+/// What is doubtful about files, told as one line: the first of them by name, and how many there are. May be
+/// added to from several threads.
+class Doubts {
+public:
+    void add(const std::filesystem::path& file, const std::string& text);
+    /// Tells it on stderr, where there is something.
+    void tell() const;
+
+private:
+    std::mutex mutex_;
+    std::set<std::string> texts_;
+};
 
 /// Reads every image once by `read`, and throws or leaves out those for which it throws.
 /// With `skip_bad` the bad ones are named on stderr and removed; else they are named and ism::Error is
 /// thrown.
 /// @return how many were left out
 std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
-                         const std::function<void(const ism::DatasetImage&)>& read);
+                         const std::function<void(ism::DatasetImage&)>& read);
 
 /// Throws ism::FileError unless a file can be written there: its folder exists and can be written to, and the
 /// file is none of `inputs`.

@@ -7,22 +7,27 @@
 #include <vector>
 
 #include "commands.hpp"
-#include <CLI/CLI.hpp>
+#include "input.hpp"
+#include "options.hpp"
 
+#include "ism/core/nearest_name.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/version.hpp"
 
 namespace {
 
+using program::add_number;
+using program::between;
+using program::only;
+
 std::vector<std::string> texts(std::span<const std::string_view> views) {
     return {views.begin(), views.end()};
 }
 
 void add_threads(CLI::App& app, unsigned& threads) {
-    app.add_option("--threads", threads, "threads; 0 = as many as the machine has")
-        ->check(CLI::Range(0u, ism::max_threads))
-        ->capture_default_str();
+    add_number(app, "--threads", threads, between(0, ism::max_threads),
+               "threads; 0 = as many as the machine has");
 }
 
 void add_skip_bad(CLI::App& app, bool& skip_bad) {
@@ -36,56 +41,45 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
     app.add_option("--class", command.classes, "learn this class only; may be given several times")
         ->take_all()
         ->expected(1);
-    app.add_option("--detector", command.detector, "finds features")
-        ->check(CLI::IsMember(texts(program::detector_names)))
+    only(app.add_option("--detector", command.detector, "finds features"), texts(program::detector_names))
         ->capture_default_str();
-    app.add_option("--descriptor", command.descriptor, "describes features")
-        ->check(CLI::IsMember(texts(program::descriptor_names)))
+    only(app.add_option("--descriptor", command.descriptor, "describes features"),
+         texts(program::descriptor_names))
         ->capture_default_str();
-    app.add_option_function<std::string>(
-           "--codebook",
-           [&command](const std::string& kind) {
-               command.options.codebook.kind =
-                   kind == "joint" ? ism::CodebookKind::joint : ism::CodebookKind::per_class;
-           },
-           "whether classes share words")
-        ->check(CLI::IsMember({"joint", "per-class"}))
+    only(app.add_option_function<std::string>(
+             "--codebook",
+             [&command](const std::string& kind) {
+                 command.options.codebook.kind =
+                     kind == "joint" ? ism::CodebookKind::joint : ism::CodebookKind::per_class;
+             },
+             "whether classes share words"),
+         {"joint", "per-class"})
         ->default_str("joint");
-    app.add_option("--similarity", command.options.codebook.min_similarity,
-                   "least similarity in clusters and matches")
-        ->check(CLI::Range(-1.0, 1.0))
+    add_number(app, "--similarity", command.options.codebook.min_similarity,
+               {-0.999999, 1, "above -1, at most 1"}, "least similarity in clusters and matches");
+    add_number(app, "--min-cluster-size", command.options.codebook.min_cluster_size, {1, 1e9, "1 or more"},
+               "features that make a word, at least");
+    add_number(app, "--min-information-gain", command.options.selection.min_information_gain, {},
+               "least information of a word about the class");
+    add_number(app, "--max-words", command.options.selection.max_words, {},
+               "keep so many of the best words; 0 = all");
+    only(app.add_option(
+             "--best-words", command.best_words,
+             "what --max-words goes by: how often a word is seen, its information gain, or how well its "
+             "votes agree"),
+         {"occurrences", "gain", "agreement"})
         ->capture_default_str();
-    app.add_option("--min-cluster-size", command.options.codebook.min_cluster_size,
-                   "features that make a word, at least")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    app.add_option("--min-information-gain", command.options.selection.min_information_gain,
-                   "least information of a word about the class")
-        ->capture_default_str();
-    app.add_option("--max-words", command.options.selection.max_words,
-                   "keep so many of the best words; 0 = all")
-        ->capture_default_str();
-    app.add_option(
-           "--best-words", command.best_words,
-           "what --max-words goes by: how often a word is seen, its information gain, or how well its "
-           "votes agree")
-        ->check(CLI::IsMember({"occurrences", "gain", "agreement"}))
-        ->capture_default_str();
-    app.add_option("--max-features", command.options.features.max_features,
-                   "features on all objects together; of more each object gives its strongest, at least 30")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    app.add_option("--max-cluster-features", command.options.codebook.max_features,
-                   "of more features a random part is clustered; all are matched")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    add_number(app, "--max-features", command.options.features.max_features, {1, 1e9, "1 or more"},
+               "features on all objects together; of more each object gives its strongest, at least 30");
+    add_number(app, "--max-cluster-features", command.options.codebook.max_features, {2, 1e9, "2 or more"},
+               "of more features a random part is clustered; all are matched");
     app.add_flag_callback(
         "--no-templates", [&command] { command.templates = false; },
         "learn no template of each class, only votes and words");
     app.add_flag_callback(
         "--no-depth", [&command] { command.depth = false; },
         "learn from colours alone, also where images have depth");
-    app.add_option("--seed", command.options.codebook.seed, "of random choices")->capture_default_str();
+    add_number(app, "--seed", command.options.codebook.seed, {0, 1e18, "0 or more"}, "of random choices");
     CLI::Option* add_to =
         app.add_option("--add-to", command.add_to,
                        "model to teach more classes, or more examples of its classes; it was "
@@ -102,67 +96,103 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
     app.callback([&command] { program::run_train(command); });
 }
 
+constexpr const char* detect_help = R"(
+What was found is told on standard output, how long it took on stderr. On a terminal it is a table; else one
+line an object, its fields separated by tabulators: image, class, probability, box (x, y, width, height in
+pixels, within the picture), depth (along the optical axis), position (x right, y down, z ahead of the camera)
+and its standard error, in metres; - where something is not known. With --data this is told where no file is
+asked for.
+
+--json: one object an image: file, width, height, detections [class, category_id, probability, score, scale,
+bbox, segmentation (COCO run lengths), and where they are known depth_m, position_m, position_error_m];
+image_id of a data set; next_best, the most probable guess, where nothing was found.
+
+Category ids are those of the data that the model was trained on (1, 2, ... where it does not know them), also
+with --data; image ids are those of the data, of images on the command line 1, 2, ...
+)";
+
 void add_detect(CLI::App& parent, program::DetectCommand& command) {
     CLI::App& app = *parent.add_subcommand("detect", "find objects in images");
+    app.footer(detect_help);
     app.add_option("--model", command.model, "model file")->required();
     CLI::Option* data = app.add_option("--data", command.data, "images, COCO JSON");
-    CLI::Option* image = app.add_option("image", command.image, "one image")->excludes(data);
-    CLI::Option* scale = app.add_option("--depth-scale", command.depth_scale,
-                                        "metres per unit of --depth; 0.001 for millimetres")
-                             ->check(CLI::PositiveNumber);
-    app.add_option("--depth", command.depth, "depth of the image, 16-bit PNG")->needs(image)->needs(scale);
-    app.add_option_function<std::vector<double>>(
+    CLI::Option* images = app.add_option("images", command.images,
+                                         "image files, folders, patterns ('*.jpg'), or - for an image at "
+                                         "standard input")
+                              ->excludes(data);
+    CLI::Option* scale =
+        add_number(app, "--depth-scale", command.depth_scale, {1e-9, 1e3, "above 0, at most 1000"},
+                   "metres per unit of --depth; 0.001 for millimetres")
+            ->default_str("");
+    app.add_option("--depth", command.depth, "depth of the one image, 16-bit PNG")
+        ->needs(images)
+        ->needs(scale);
+    app.add_option_function<std::string>(
            "--camera",
-           [&command](const std::vector<double>& k) {
-               command.camera = ism::Camera{k[0], k[1], k[2], k[3]};
-               ism::check(*command.camera);
-           },
-           "FX,FY,CX,CY of the image, pixels")
-        ->delimiter(',')
-        ->expected(4)
-        ->needs(image);
-    app.add_option("-o,--output", command.results, "results to write, COCO JSON")->required();
+           [&command](const std::string& text) { command.camera = program::parse_camera("--camera", text); },
+           "focal lengths and principal point of the images, pixels")
+        ->type_name("FX,FY,CX,CY")
+        ->needs(images);
+    app.add_option("-o,--output", command.results, "results to write, COCO JSON; - for standard output");
+    app.add_option("--json", command.json,
+                   "results to write, a line of JSON an image; - for standard output");
+    app.add_flag("--show", command.show, "draw what was found beside each image: photo.ism.png")
+        ->needs(images);
     std::vector<std::string> spaces = texts(program::space_names);
     spaces.insert(spaces.begin(), std::string(program::auto_space));
     spaces.emplace_back(program::metric_space);
-    app.add_option(
-           "--space", command.search.space,
-           "vote space; auto: metric where the model was learnt with depth and the image has depth and a "
-           "camera, and no --rescore, --verify or --segment is given, else jism")
-        ->check(CLI::IsMember(spaces))
+    only(app.add_option(
+             "--space", command.search.space,
+             "vote space; auto: metric where the model was learnt with depth and the image has depth and a "
+             "camera, and no --rescore, --verify or --segment is given, else jism"),
+         spaces)
         ->capture_default_str();
-    app.add_option("--keep", command.search.keep, "drop what scores less than this part of the image's best")
-        ->check(CLI::Range(0.0, 1.0))
+    app.add_option_function<std::string>(
+           "--keep",
+           [&command](const std::string& text) {
+               command.search.keep = program::parse_number<double>("--keep", text, between(0, 1));
+           },
+           "drop what scores less than this part of the image's best (from 0 to 1)")
+        ->type_name("NUMBER")
         ->default_str(ism::join_text(ism::DetectOptions{}.min_relative_score, ", with templates 0.01"));
-    app.add_option("--min-score", command.search.min_score,
-                   "tell only what is an object at least so probably; 0: all that was found, for evaluation")
-        ->check(CLI::Range(0.0, 1.0))
+    app.add_option_function<std::string>(
+           "--min-score",
+           [&command](const std::string& text) {
+               command.search.min_score = program::parse_number<double>("--min-score", text, between(0, 1));
+           },
+           "tell only what is an object at least so probably; 0: all that was found, for evaluation (from 0 "
+           "to 1)")
+        ->type_name("NUMBER")
         ->default_str(ism::join_text(program::default_min_score,
                                      " where templates judge or in the space metric, else 0"));
-    app.add_option("--rescore", command.search.rescorer,
-                   "what judges hypotheses beside their votes: a template of each class, the words in their "
-                   "boxes, or nothing; auto: templates where the model has them, else words")
-        ->check(CLI::IsMember({"auto", "template", "boxes", "none"}))
+    only(app.add_option(
+             "--rescore", command.search.rescorer,
+             "what judges hypotheses beside their votes: a template of each class, the words in their "
+             "boxes, or nothing; auto: templates where the model has them, else words"),
+         {"auto", "template", "boxes", "none"})
         ->capture_default_str();
-    app.add_option(
-           "--verify", command.search.verifier,
-           "how overlapping hypotheses are sorted out: by their masks, or by their boxes; auto: boxes where "
-           "templates judge, else masks")
-        ->check(CLI::IsMember({"auto", "mdl", "nms"}))
+    only(
+        app.add_option(
+            "--verify", command.search.verifier,
+            "how overlapping hypotheses are sorted out: by their masks, or by their boxes; auto: boxes where "
+            "templates judge, else masks"),
+        {"auto", "mdl", "nms"})
         ->capture_default_str();
-    app.add_option(
-           "--segment", command.search.segmenter,
-           "what cuts objects out: training objects that look alike, with the colours and edges of the "
-           "picture, or the patches of votes; auto: exemplars where the model has them, else patches")
-        ->check(CLI::IsMember({"auto", "exemplars", "patches"}))
+    only(app.add_option(
+             "--segment", command.search.segmenter,
+             "what cuts objects out: training objects that look alike, with the colours and edges of the "
+             "picture, or the patches of votes; auto: exemplars where the model has them, else patches"),
+         {"auto", "exemplars", "patches"})
         ->capture_default_str();
     app.add_option("--overlay", command.overlay_folder, "folder for pictures of what was found and why");
     app.add_option("--report", command.report, "HTML page to write");
     add_threads(app, command.threads);
     add_skip_bad(app, command.skip_bad);
-    app.callback([&command, data, image] {
-        if (data->count() + image->count() != 1)
-            throw ism::Error("detect: expected --data or an image, got neither");
+    app.callback([&command, data, images] {
+        ism::expect(data->count() + images->count() > 0, "detect", "--data or images",
+                    "neither, as in: ism detect --model model.safetensors photo.jpg");
+        ism::expect(command.depth.empty() || command.images.size() == 1, "--depth", "one image",
+                    command.images.size());
         program::run_detect(command);
     });
 }
@@ -173,22 +203,21 @@ void add_evaluate(CLI::App& parent, program::EvaluateCommand& command) {
                                            "it equals recall (EER), best F1, IoU of masks");
     app.add_option("--data", command.data, "labelled images, COCO JSON")->required();
     app.add_option("--detections", command.detections, "results, COCO JSON")->required();
-    app.add_option_function<std::string>(
-           "--rule",
-           [&command](const std::string& rule) {
-               command.options.rule =
-                   rule == "uiuc" ? ism::EvaluateOptions::Rule::uiuc : ism::EvaluateOptions::Rule::iou;
-               command.coco = rule == "coco";
-           },
-           "when a box is right: enough overlap (iou), or a centre near enough (uiuc); coco: AP and recall "
-           "as "
-           "its official evaluation tells them of boxes")
-        ->check(CLI::IsMember({"iou", "uiuc", "coco"}))
+    only(app.add_option_function<std::string>(
+             "--rule",
+             [&command](const std::string& rule) {
+                 command.options.rule =
+                     rule == "uiuc" ? ism::EvaluateOptions::Rule::uiuc : ism::EvaluateOptions::Rule::iou;
+                 command.coco = rule == "coco";
+             },
+             "when a box is right: enough overlap (iou), or a centre near enough (uiuc); coco: AP and recall "
+             "as "
+             "its official evaluation tells them of boxes"),
+         {"iou", "uiuc", "coco"})
         ->default_str("iou");
     const CLI::Option* iou =
-        app.add_option("--iou", command.options.iou_threshold, "least overlap of a right box by the rule iou")
-            ->check(CLI::Range(0.0, 1.0))
-            ->capture_default_str();
+        add_number(app, "--iou", command.options.iou_threshold, {1e-9, 1, "above 0, at most 1"},
+                   "least overlap of a right box by the rule iou");
     app.add_option("--json", command.json, "figures to write, JSON");
     const CLI::Option* plot = app.add_option("--plot", command.plot, "precision-recall curves to write, SVG");
     app.callback([&command, iou, plot] {
@@ -202,7 +231,7 @@ void add_evaluate(CLI::App& parent, program::EvaluateCommand& command) {
 void add_demo(CLI::App& parent, program::DemoCommand& command) {
     CLI::App& app = *parent.add_subcommand("demo", "render toys, learn them, find them, report");
     app.add_option("-o,--output", command.folder, "folder to write to")->capture_default_str();
-    app.add_option("--seed", command.seed, "of the toys and scenes")->capture_default_str();
+    add_number(app, "--seed", command.seed, {0, 1e18, "0 or more"}, "of the toys and scenes");
     app.add_flag("--small", command.small, "a few pictures only")->group("");
     add_threads(app, command.threads);
     app.callback([&command] { program::run_demo(command); });
@@ -215,6 +244,27 @@ int fail(std::string message) {
     return 2;
 }
 
+/// What to type first, by the name that the program was called by.
+int tell_first_steps(const std::string& program) {
+    std::fprintf(
+        stderr,
+        R"(ism finds objects of several classes in pictures, after learning from a few labelled ones. Type first:
+
+  %s demo
+      makes pictures of toys, learns them, finds them, and writes a report
+  %s train --data train.json -o model.safetensors
+      learns your own labelled pictures (COCO JSON)
+  %s detect --model model.safetensors photo.jpg
+      tells what is in a picture; --show draws it
+  %s evaluate --data test.json --detections found.json
+      tells how good results are: found.json is of ism detect --data test.json -o found.json
+
+%s --help tells all commands, %s COMMAND --help all options.
+)",
+        program.c_str(), program.c_str(), program.c_str(), program.c_str(), program.c_str(), program.c_str());
+    return 2;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -224,10 +274,13 @@ int main(int argc, char** argv) {
         "ism");
     app.set_version_flag("--version", std::string("ism ") + ism::version_text);
     app.require_subcommand(1);
+    const std::string called = program::shell_word(argc > 0 ? argv[0] : "ism");
     program::TrainCommand train;
+    train.program = called;
     program::DetectCommand detect;
     program::EvaluateCommand evaluate;
     program::DemoCommand demo;
+    demo.program = called;
     std::filesystem::path model;
     add_train(app, train);
     add_detect(app, detect);
@@ -236,20 +289,40 @@ int main(int argc, char** argv) {
     CLI::App& info = *app.add_subcommand("info", "tell what is in a model file");
     info.add_option("model", model, "model file")->required();
     info.callback([&model] { program::run_info(model); });
-    const std::string first = argc > 1 ? argv[1] : "none";
-    const auto is_first = [&](const CLI::App* command) { return command->get_name() == first; };
-    if (!first.starts_with("-") && app.get_subcommands(is_first).empty())
-        return fail("expected a command (train, detect, evaluate, demo, info), got " + first +
-                    "; ism --help tells more");
+
+    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    if (arguments.empty()) return tell_first_steps(called);
+    if (arguments[0] == "help") {  // of a command, or of all
+        arguments.erase(arguments.begin());
+        arguments.resize(std::min<std::size_t>(arguments.size(), 1));
+        arguments.emplace_back("--help");
+    }
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    const std::string first = arguments[0];
+    const bool is_command = std::find(names.begin(), names.end(), first) != names.end();
+    std::error_code ignored;
+    if (!is_command && std::filesystem::exists(first, ignored))
+        return fail("expected a command (" + program::list_text(names) + ") first, got the file '" + first +
+                    "'; to find objects in it: ism detect --model MODEL " + program::shell_word(first));
+    std::vector<std::string> known = names;
+    known.insert(known.end(), {"--help", "--version"});
+    if (!is_command && first != "--help" && first != "-h" && first != "--version")
+        return fail("expected a command (" + program::list_text(names) + ") first, got '" + first + "'" +
+                    ism::did_you_mean(first, known) + "; ism --help tells more");
     try {
-        app.parse(argc, argv);
+        if (is_command)
+            program::check_option_names(*app.get_subcommand(first), {arguments.begin() + 1, arguments.end()});
+        std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+        app.parse(arguments);
     } catch (const CLI::Success& done) {
         return app.exit(done);  // --help, --version
     } catch (const CLI::ParseError& error) {
-        return fail(error.what());
+        return fail(program::refusal_text(error, first));
     } catch (const std::exception& error) {
         return fail(error.what());
     }
-    if (std::fflush(stdout) != 0) return fail("standard output: expected to write it whole, got a failure");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        return fail("standard output: expected to write it whole, got a failure");
     return 0;
 }

@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <map>
 
 #include "input.hpp"
 
 #include "ism/core/text.hpp"
+#include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/matching.hpp"
 
 namespace program {
@@ -23,22 +22,10 @@ std::string Mistakes::text() const {
 
 std::vector<Mistakes> find_mistakes(const ism::Dataset& dataset,
                                     std::span<const std::vector<ism::Result>> of_image) {
-    std::map<std::int64_t, std::size_t> class_of;
-    for (std::size_t c = 0; c < dataset.category_ids.size(); ++c) class_of[dataset.category_ids[c]] = c;
-    std::vector<ism::TruthObject> truth;
-    std::vector<ism::FoundObject> found;
-    std::vector<double> probability;
-    for (std::size_t i = 0; i < of_image.size(); ++i) {
-        for (const ism::DatasetAnnotation& object : dataset.images[i].objects)
-            truth.push_back({i, object.class_index, object.box, object.crowd});
-        for (const ism::Result& result : of_image[i]) {
-            found.push_back({.image = i,
-                             .class_index = std::uint32_t(class_of.at(result.category_id)),
-                             .box = result.box,
-                             .score = result.score});
-            probability.push_back(result.probability);
-        }
-    }
+    const std::vector<ism::TruthObject> truth = ism::detail::truth_of(dataset).objects;
+    std::vector<ism::Result> results;
+    for (const auto& own : of_image) results.insert(results.end(), own.begin(), own.end());
+    const std::vector<ism::FoundObject> found = ism::detail::found_in(dataset, results);
     const std::vector<ism::Judgement> judgements = ism::match(truth, found, ism::IouRule{});
     std::vector<Mistakes> mistakes(of_image.size());
     std::vector<bool> seen(truth.size(), false);
@@ -47,9 +34,10 @@ std::vector<Mistakes> find_mistakes(const ism::Dataset& dataset,
         if (judgements[f].verdict != ism::Verdict::false_positive) continue;
         Mistakes& here = mistakes[found[f].image];
         std::string text = dataset.class_names[found[f].class_index];
-        if (!std::isnan(probability[f])) text += ism::join_text(" ", std::lround(100 * probability[f]), " %");
+        if (!std::isnan(results[f].probability))
+            text += ism::join_text(" ", std::lround(100 * results[f].probability), " %");
         here.wrong.push_back(std::move(text));
-        here.weight += std::isnan(probability[f]) ? 0.1 : probability[f];
+        here.weight += std::isnan(results[f].probability) ? 0.1 : results[f].probability;
     }
     for (std::size_t t = 0; t < truth.size(); ++t) {
         if (seen[t] || truth[t].ignore) continue;

@@ -76,6 +76,17 @@ std::string add_depth(ism::Model& model, const ism::Dataset& dataset, const ism:
                           " regions");
 }
 
+/// "car (30 objects), cow (1 object)".
+std::string lessons_text(const ism::ShapeModel& shapes) {
+    std::vector<std::size_t> objects(shapes.class_names.size(), 0);
+    for (const ism::TrainingObject& object : shapes.objects) ++objects[object.class_index];
+    std::vector<std::string> lessons;
+    for (std::size_t c = 0; c < objects.size(); ++c)
+        lessons.push_back(ism::join_text(shapes.class_names[c], " (", objects[c],
+                                         objects[c] == 1 ? " object)" : " objects)"));
+    return list_text(lessons);
+}
+
 }  // namespace
 
 void run_train(const TrainCommand& command) {
@@ -90,12 +101,17 @@ void run_train(const TrainCommand& command) {
     options.features.pixels = templates;
     ism::Dataset dataset = ism::read_dataset(command.data);
     if (!command.classes.empty()) dataset = ism::select_classes(dataset, command.classes);
+    Doubts doubts;
     const std::size_t skipped =
         check_images(dataset, options.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
             ism::TrainingImage training = ism::read_training_image(image);
             training.name = ism::file_text(image.file);
             ism::check(training, dataset.class_names.size());
+            if (!image.depth_file.empty())
+                doubts.add(image.depth_file,
+                           ism::depth_scale_doubt(training.frame.depth_m, image.depth_scale));
         });
+    doubts.tell();
 
     ProgressLine progress;
     options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
@@ -131,6 +147,8 @@ void run_train(const TrainCommand& command) {
     std::printf("upsampling   %.3g\n", settings.options.upsampling);
     if (!depth.empty()) std::printf("depth        %s\n", depth.c_str());
     std::printf("seconds      %.1f\n", watch.seconds());
+    std::printf("\nLearnt %s. Next:\n  %s detect --model %s photo.jpg\n", lessons_text(model.shapes).c_str(),
+                command.program.c_str(), shell_word(command.model.string()).c_str());
 }
 
 }  // namespace program

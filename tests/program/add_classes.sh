@@ -39,7 +39,7 @@ says "classes      car, mug, duck" own-more.txt
 says "exemplars       18" own-info.txt
 
 # What contradicts the model.
-refused_in_a_line "--detector excludes --add-to" "$ism" train --data toys/train.json -o out --add-to two --detector dog
-refused_in_a_line "--max-words excludes --add-to" "$ism" train --data toys/train.json -o out --add-to two --max-words 9
+refused_in_a_line "expected --detector or --add-to, got both" "$ism" train --data toys/train.json -o out --add-to two --detector dog
+refused_in_a_line "expected --max-words or --add-to, got both" "$ism" train --data toys/train.json -o out --add-to two --max-words 9
 refused_in_a_line "another file than an input" "$ism" train --data toys/train.json -o two --add-to two
 refused_in_a_line "none-there" "$ism" train --data toys/train.json -o out --add-to none-there

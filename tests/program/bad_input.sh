@@ -8,7 +8,8 @@ make_toys
 model=toys/model.safetensors
 line=refused_in_a_line
 
-$line "expected a command (train, detect, evaluate, demo, info), got none" "$ism"
+$line "expected a command (train, detect, evaluate, demo, info) first, got 'detct': did you mean detect?" "$ism" detct
+$line "to find objects in it: ism detect --model MODEL toys/test.json" "$ism" toys/test.json
 $line "bogus" "$ism" bogus
 $line "--data" "$ism" train -o out
 $line "bogus" "$ism" train --data toys/train.json -o out --detector bogus
@@ -16,7 +17,29 @@ $line "bogus" "$ism" detect --model $model --data toys/test.json -o out --space 
 $line "--keep" "$ism" detect --model $model --data toys/test.json -o out --keep 2
 $line "--similarity" "$ism" train --data toys/train.json -o out --similarity much
 $line "--threads" "$ism" train --data toys/train.json -o out --threads 1000000
-$line "--threads" "$ism" detect --model $model --data toys/test.json -o out --threads -1
+$line "--threads: expected a whole number, from 0 to 1024, got '-1'" \
+    "$ism" detect --model $model --data toys/test.json -o out --threads -1
+
+# An option, a class or a word that is mistyped is named with the nearest; numbers have ranges that people read.
+$line "unknown option --modle: did you mean --model?" "$ism" detect --modle $model toys/test/test-0000.png
+$line "unknown option -model: did you mean --model?" "$ism" detect -model $model toys/test/test-0000.png
+$line "unknown option --min_score: did you mean --min-score?" "$ism" detect --model $model --min_score=0.1 toys/test
+$line "unknown option --camera" "$ism" train --data toys/train.json -o out --camera 1,2,3,4
+$line "got 'rodot': did you mean robot?" "$ism" train --data toys/train.json -o out --class rodot
+$line "--detector: expected one of dog, harris-laplace, hessian-laplace, dense, got 'harris': did you mean harris-laplace?" \
+    "$ism" train --data toys/train.json -o out --detector harris
+$line "--max-words: expected a whole number, 0 or more, got '-3'" "$ism" train --data toys/train.json -o out --max-words -3
+$line "--max-words: expected a whole number, 0 or more, got '2.5'" "$ism" train --data toys/train.json -o out --max-words=2.5
+$line "0 or more, got 99999999999999999999, too large a number" \
+    "$ism" train --data toys/train.json -o out --max-words 99999999999999999999
+for bad in nan inf -1 '' 1e400 0x1; do
+    $line "--min-information-gain: expected a number, 0 or more, got " \
+        "$ism" train --data toys/train.json -o out --min-information-gain "$bad"
+done
+$line "--min-score: expected a number, from 0 to 1, got '30'" "$ism" detect --model $model --min-score 30 toys/test
+$line "train: expected --data, got none" "$ism" train -o out
+$line "--model: expected a value, got none" "$ism" detect --model
+$line "expected no further argument, got 'more'" "$ism" info $model more
 
 # Files that are not what they should be.
 $line "'none.json': expected a file to read, got none of this name" "$ism" train --data none.json -o out
@@ -54,17 +77,36 @@ sed -E 's/"depth_file_name":"[^"]*",//; s/"depth_scale":[0-9.]*,//' toys/test.js
 $line "vote space ji3sm1: expected depth_file_name" "$ism" detect --model $model --data toys/colour.json -o out --space ji3sm1
 "$ism" detect --model $model --data toys/colour.json -o colour >/dev/null || fail "detection without depth"
 ! grep -q depth_m colour || fail "depth where there is none: $(cat colour)"
-$line "expected --data or an image" "$ism" detect --model $model -o out
+$line "expected --data or images" "$ism" detect --model $model -o out
 $line "image" "$ism" detect --model $model --data toys/test.json toys/test/test-0000.png -o out
 $line "--depth-scale" "$ism" detect --model $model toys/test/test-0000.png --depth toys/test/test-0000-depth.png -o out
-$line "--camera" "$ism" detect --model $model toys/test/test-0000.png --camera 1,2 -o out
+for bad in 1,2 1,2,3,4,5 a,b,c,d 1,,2,3 ""; do
+    $line "--camera: expected four numbers, FX,FY,CX,CY in pixels, got '$bad'" \
+        "$ism" detect --model $model toys/test/test-0000.png --camera "$bad" -o out
+done
+$line "camera focal lengths" "$ism" detect --model $model toys/test/test-0000.png --camera nan,500,1,1 -o out
+$line "--data: expected once, got several times" "$ism" train --data toys/train.json --data toys/test.json -o out
+code=0
+"$ism" detect --model $model toys/test/test-0000.png >/dev/full 2>full.txt || code=$?
+((code == 2)) || fail "a full disk: expected exit code 2, got $code"
+says "standard output: expected to write it whole" full.txt
 $line "camera focal lengths" "$ism" detect --model $model toys/test/test-0000.png --camera 0,1,2,3 -o out
 $line "none.png" "$ism" detect --model $model none.png -o out
 $line "test-0000.png" "$ism" detect --model $model toys/test/test-0000.png --depth toys/test/test-0000.png --depth-scale 1 -o out
+depth="toys/test/test-0000.png --depth toys/test/test-0000-depth.png"
+$line "got 1, by which the median of the depth is" "$ism" detect --model $model $depth --depth-scale 1 -o out
+says "; 0.001 would make it" stderr.txt
+sed 's/"depth_scale":[0-9.]*/"depth_scale":1/' toys/train.json >toys/units.json
+refused "0.001 would make it" "$ism" train --data toys/units.json -o out
+"$ism" detect --model $model $depth --depth-scale 0.03 >/dev/null 2>doubt.txt || fail "a doubtful depth scale: $(cat doubt.txt)"
+says "note: file 'toys/test/test-0000-depth.png': depth scale 0.03" doubt.txt
+$line "--depth-scale: expected a number, above 0" "$ism" detect --model $model $depth --depth-scale -0.001 -o out
+$line "--depth: expected one image, got 2" \
+    "$ism" detect --model $model toys/test/test-0001.png $depth --depth-scale 0.001 -o out
 
 # Results that do not fit the data.
 sed 's/"image_id":1,/"image_id":77,/' toys/detections-jism.json >other.json
 $line "file 'other.json': result 0: image_id: expected an image of data set 'toys/test.json', got 77" \
     "$ism" evaluate --data toys/test.json --detections other.json
 $line "array of results" "$ism" evaluate --data toys/test.json --detections toys/test.json
-$line "IoU threshold" "$ism" evaluate --data toys/test.json --detections toys/detections-jism.json --iou 0
+$line "--iou: expected a number, above 0, at most 1, got '0'" "$ism" evaluate --data toys/test.json --detections toys/detections-jism.json --iou 0

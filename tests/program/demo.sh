@@ -19,6 +19,19 @@ says synthetic toys/report.html
 cp toys/detections-jism.json before.json
 "$ism" demo --small -o toys --threads 1 >again.txt
 cmp before.json toys/detections-jism.json || fail "demo: other detections on one thread"
+
+# It ends with what opens its report, and three commands to try next, which work as they stand there.
+grep -qE '^  (xdg-open toys/report.html|open toys/report.html|file:///.*/toys/report.html)$' demo.txt || fail "demo: how to see the report: $(cat demo.txt)"
+tail -3 demo.txt | sed 's/^  //' >commands.txt
+mkdir next
+cp -r toys/train toys/test toys/train.json toys/test.json next
+cp toys/test/test-0000.png next/photo.jpg
+cd next
+while IFS= read -r line; do
+    bash -euo pipefail -c "$line" >printed.txt 2>&1 </dev/null || fail "demo: $line: $(cat printed.txt)"
+done <../commands.txt
+for file in model.safetensors photo.ism.png found.html; do [[ -s $file ]] || fail "demo: no $file after $(cat ../commands.txt)"; done
+cd ..
 mkdir mine
 touch mine/train.json
 refused_in_a_line "an empty one or one of an earlier demo" "$ism" demo --small -o mine

@@ -21,8 +21,8 @@ cmp found-1 found-metric || fail "--space auto is not metric"
 ! grep "^space" detect.txt || fail "a space that was asked for is told"
 says "metric" report.html
 "$ism" detect --model model toys/test/test-0000.png --depth toys/test/test-0000-depth.png --depth-scale 0.001 \
-    --camera 262.5,262.5,159.5,119.5 -o single >detect.txt
-says "space       metric" detect.txt
+    --camera 262.5,262.5,159.5,119.5 -o single >lines.txt 2>detect.txt
+says "space metric" detect.txt
 cmp <(grep -F '"image_id":1,' found-1 | sed 's/,$//') <(grep -F '"image_id":1,' single | sed 's/,$//') ||
     fail "one image is not detected as the same image of a data set"
 "$ism" detect --model model --data toys/test.json -o sure --min-score 0.9 >/dev/null

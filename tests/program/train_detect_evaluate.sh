@@ -8,7 +8,7 @@ make_toys
 for threads in 1 3; do
     "$ism" train --data toys/train.json -o model-$threads --threads $threads >train.txt
     "$ism" detect --model model-$threads --data toys/test.json -o found-$threads --space ji3sm3 \
-        --report report-$threads.html --overlay overlay-$threads --threads $threads >detect.txt
+        --report report-$threads.html --overlay overlay-$threads --threads $threads >detect.txt 2>timing.txt
 done
 cmp model-1 model-3 || fail "another model with 3 threads"
 cmp found-1 found-3 || fail "other detections with 3 threads"
@@ -18,7 +18,10 @@ diff -r overlay-1 overlay-3 || fail "other overlays with 3 threads"
 for line in "images       24" "objects      24" "words        " "occurrences  " "upsampling   " "seconds      "; do
     says "$line" train.txt
 done
-for line in "images      2" "detections  " "ms/image    "; do says "$line" detect.txt; done
+for line in "images      2" "detections  "; do says "$line" detect.txt; done
+for line in "seconds     " "ms/image    "; do says "$line" timing.txt; done
+says "Learnt car (6 objects), mug (6 objects), duck (6 objects), robot (6 objects). Next:" train.txt
+says " detect --model model-3 photo.jpg" train.txt
 for key in '"image_id":1,' '"category_id":' '"bbox":[' '"segmentation":{' '"position_m":[' '"depth_m":' '"scale":'; do
     says "$key" found-1
 done
@@ -75,7 +78,7 @@ says "objects      6" cars.txt
 says "classes      robot, duck" own.txt
 "$ism" detect --model own --data toys/test.json -o found-own >/dev/null
 
-# One image without a data set: number 1, classes numbered from 1 in the model's order.
+# One image without a data set: number 1, classes numbered as in the training file.
 "$ism" detect --model model-1 toys/test/test-0000.png --depth toys/test/test-0000-depth.png --depth-scale 0.001 \
     --camera 262.5,262.5,159.5,119.5 --space ji3sm3 -o found-single >/dev/null
 grep -F '"image_id":1,' found-1 | sed 's/,$//' >expected

@@ -98,20 +98,25 @@ namespace detail {
 
 }  // namespace detail
 
+/// @brief What write_results() writes.
+/// @param place  what errors name
+/// @throws FileError where read_results() would refuse it.
+[[nodiscard]] inline std::string results_text(std::span<const Result> results, const std::string& place) {
+    detail::Json records = detail::Json::array();
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        records.push_back(detail::result_to_json(results[i]));
+        static_cast<void>(detail::result_from_json(records.back(), join_text(place, ", result ", i)));
+    }
+    return detail::json_lines(records, place) + "\n";
+}
+
 /// @brief Writes results as COCO's array, one record a line: image_id, category_id, bbox, score, segmentation
 /// {size, counts}; beside these scale and, where they are known, class (its name), probability, depth_m,
 /// position_m [x, y, z] and position_error_m.
 /// @throws FileError where the file cannot be written, or read_results() would refuse it; nothing is written
 /// then.
 inline void write_results(const std::filesystem::path& path, std::span<const Result> results) {
-    using detail::Json;
-    const std::string place = file_text(path);
-    Json records = Json::array();
-    for (std::size_t i = 0; i < results.size(); ++i) {
-        records.push_back(detail::result_to_json(results[i]));
-        static_cast<void>(detail::result_from_json(records.back(), join_text(place, ", result ", i)));
-    }
-    write_file(path, detail::json_lines(records, place) + "\n");
+    write_file(path, results_text(results, file_text(path)));
 }
 
 /// @brief Reads a COCO array of results, of this or of another program: what only we write (scale, class,

@@ -14,6 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ism/core/nearest_name.hpp"
 #include "ism/dataset/coco_results.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/evaluate/coco_rule.hpp"
@@ -77,8 +78,10 @@ struct DatasetTruth {
         const std::string place = join_text("result ", found.size(), ": ");
         expect(image != image_of.end(), lazy_text(place, "image_id"), lazy_text("an image of ", set),
                result.image_id);
-        expect(result.class_name.empty() || named != class_named.end(), lazy_text(place, "class"),
-               lazy_text("a category of ", set), lazy_text("'", one_line(result.class_name), "'"));
+        if (!result.class_name.empty() && named == class_named.end())
+            throw Error(join_text(place, "class: expected a category of ", set, ", got '",
+                                  one_line(result.class_name), "'",
+                                  did_you_mean(result.class_name, dataset.class_names)));
         expect(named != class_named.end() || category != class_of.end(), lazy_text(place, "category_id"),
                lazy_text("a category of ", set), result.category_id);
         found.push_back({image->second, named != class_named.end() ? named->second : category->second,

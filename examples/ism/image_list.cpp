@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include "image_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include "input.hpp"
+#include <glob.h>
+#include <unistd.h>
+
+#include "ism/core/number_text.hpp"
+#include "ism/io/paths.hpp"
+#include "ism/io/write_file.hpp"
+
+namespace program {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view overlay_ending = ".ism.png";
+
+bool is_image_name(const fs::path& file) {
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    constexpr std::array<std::string_view, 10> known = {".png", ".jpg", ".jpeg", ".bmp", ".ppm",
+                                                        ".pgm", ".pnm", ".webp", ".tif", ".tiff"};
+    return std::find(known.begin(), known.end(), ending) != known.end();
+}
+
+/// Whether a file is a grey PNG of 16 bits, as depth is kept.
+bool is_depth_image(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::array<char, 26> head{};
+    stream.read(head.data(), std::streamsize(head.size()));
+    return stream && std::string_view(head.data() + 1, 3) == "PNG" && head[24] == 16 && head[25] == 0;
+}
+
+std::vector<fs::path> files_of_folder(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code failure;
+    for (fs::directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure))
+        if (!fs::is_directory(at->path(), failure) && is_image_name(at->path())) files.push_back(at->path());
+    if (failure)
+        throw ism::FileError("folder '" + folder.string() + "': expected to read it, got " +
+                             failure.message());
+    return files;
+}
+
+std::vector<fs::path> files_of_pattern(const std::string& pattern) {
+    glob_t found{};
+    std::vector<fs::path> files;
+    if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
+        for (std::size_t i = 0; i < found.gl_pathc; ++i)
+            if (!fs::is_directory(found.gl_pathv[i])) files.emplace_back(found.gl_pathv[i]);
+    globfree(&found);
+    return files;
+}
+
+}  // namespace
+
+ImageList::ImageList(std::span<const std::string> arguments) {
+    std::error_code failure;
+    for (const std::string& argument : arguments) {
+        if (argument == standard_input) {
+            add_standard_input();
+        } else if (fs::is_directory(argument, failure)) {
+            add_found(files_of_folder(argument), "folder '" + ism::one_line(argument) + "'");
+        } else if (fs::exists(argument, failure) || argument.find_first_of("*?[") == std::string::npos) {
+            ism::expect<ism::FileError>(fs::exists(argument, failure), ism::file_text(argument),
+                                        "an image to read", "none of this name");
+            add(argument);
+        } else {
+            add_found(files_of_pattern(argument), "pattern '" + ism::one_line(argument) + "'");
+        }
+    }
+    leave_out_overlays();
+    leave_out_depth();
+}
+
+ImageList::~ImageList() {
+    std::error_code ignored;
+    if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+std::string ImageList::told(std::string message) const {
+    if (temporary_.empty()) return message;
+    const std::string name = ism::file_text(temporary_);
+    if (const std::size_t at = message.find(name); at != std::string::npos)
+        message.replace(at, name.size(), "standard input");
+    return message;
+}
+
+void ImageList::add(const fs::path& file) {
+    const auto same = [&](const NamedImage& image) {
+        return image.file.lexically_normal() == file.lexically_normal();
+    };
+    if (std::none_of(images_.begin(), images_.end(), same)) images_.push_back({file, file.string()});
+}
+
+void ImageList::add_standard_input() {
+    const std::string place = "standard input";
+    ism::expect<ism::FileError>(temporary_.empty(), place, "one '-'", "several");
+    ism::expect<ism::FileError>(isatty(STDIN_FILENO) == 0, place, "an image (… - < photo.jpg)", "a terminal");
+    constexpr std::size_t most_bytes = std::size_t(1) << 30;
+    std::vector<std::uint8_t> bytes;
+    std::vector<std::uint8_t> part(std::size_t(1) << 16);
+    while (const std::size_t count = std::fread(part.data(), 1, part.size(), stdin)) {
+        bytes.insert(bytes.end(), part.begin(), part.begin() + std::ptrdiff_t(count));
+        ism::expect<ism::FileError>(bytes.size() <= most_bytes, place,
+                                    ism::lazy_text("at most ", most_bytes, " bytes"), "more");
+    }
+    ism::expect<ism::FileError>(!bytes.empty(), place, "an image", "nothing");
+    std::random_device device;
+    temporary_ = fs::temp_directory_path() /
+                 ism::join_text("ism-", ism::hex_text(device(), 8), ism::hex_text(device(), 8));
+    ism::write_file(temporary_, std::span<const std::uint8_t>(bytes));
+    images_.push_back({temporary_, standard_input});
+}
+
+void ImageList::add_found(std::vector<fs::path> files, const std::string& place) {
+    std::sort(files.begin(), files.end());
+    ism::expect<ism::FileError>(!files.empty(), place, "a file that is an image (PNG, JPEG, BMP, PNM)",
+                                "none");
+    for (const fs::path& file : files) add(file);
+}
+
+void ImageList::leave_out_overlays() {
+    std::set<fs::path> overlays;
+    for (const NamedImage& image : images_)
+        for (const fs::path& own : {image.file.parent_path() / image.file.stem(), image.file})
+            overlays.insert((own.string() + std::string(overlay_ending)));
+    std::erase_if(images_, [&](const NamedImage& image) { return overlays.contains(image.file); });
+}
+
+void ImageList::leave_out_depth() {
+    if (images_.size() < 2) return;
+    const auto is_depth = [](const NamedImage& image) { return is_depth_image(image.file); };
+    const auto depth = std::size_t(std::count_if(images_.begin(), images_.end(), is_depth));
+    if (depth == 0 || depth == images_.size()) return;
+    std::erase_if(images_, is_depth);
+    std::fprintf(stderr, "ism: note: left out as depth: %zu of the images, which are grey PNG of 16 bits\n",
+                 depth);
+}
+
+std::vector<fs::path> overlay_files(std::span<const NamedImage> images) {
+    std::vector<fs::path> inputs, files;
+    std::set<fs::path> taken;
+    for (const NamedImage& image : images) {
+        ism::expect<ism::FileError>(image.name != standard_input, "--show", "files to write beside",
+                                    "standard input");
+        inputs.push_back(image.file);
+    }
+    for (const fs::path& input : inputs) {
+        fs::path file = input.parent_path() / input.stem();
+        file += overlay_ending;
+        if (!taken.insert(file.lexically_normal()).second) {
+            file = input;
+            file += overlay_ending;
+            taken.insert(file.lexically_normal());
+        }
+        for (const fs::path& other : inputs)
+            ism::expect<ism::FileError>(
+                other.lexically_normal() != file.lexically_normal(), "--show",
+                ism::lazy_text("no image that is named as what it writes beside '", input.string(), "'"),
+                ism::lazy_text("'", other.string(), "'"));
+        check_output(file, inputs);
+        files.push_back(std::move(file));
+    }
+    return files;
+}
+
+}  // namespace program
