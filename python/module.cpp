@@ -67,14 +67,10 @@ py::object array_of(const py::object& arrays, std::size_t i, std::int64_t id, co
 class PythonModel {
 public:
     ism::Model model;
-    std::vector<std::int64_t> category_ids;
 
     static PythonModel load(const std::filesystem::path& path) {
         const py::gil_scoped_release released;
-        PythonModel loaded{ism::load_model(path), {}};
-        for (std::size_t c = 0; c < loaded.model.shapes.class_names.size(); ++c)
-            loaded.category_ids.push_back(std::int64_t(c) + 1);
-        return loaded;
+        return {ism::load_model(path)};
     }
 
     void save(const std::filesystem::path& path) const {
@@ -84,6 +80,7 @@ public:
 
     [[nodiscard]] py::list categories() const {
         py::list list;
+        const std::vector<std::int64_t> category_ids = ism::result_category_ids(model.shapes);
         for (std::size_t c = 0; c < category_ids.size(); ++c) {
             py::dict category;
             category["id"] = category_ids[c], category["name"] = model.shapes.class_names[c];
@@ -104,7 +101,8 @@ public:
             ism::expect(found != all.end(), "categories", ism::lazy_text("one named '", name, "'"), "none");
             ids.push_back(ism::detail::integer_member(*found, "id", "category '" + name + "'"));
         }
-        category_ids = ids;
+        model.shapes.category_ids = ids;
+        for (ism::Model& rgbd : model.rgbd) rgbd.shapes.category_ids = ids;
     }
 
     [[nodiscard]] py::dict info() const {
@@ -163,7 +161,7 @@ public:
                                        .depth_file = {},
                                        .width = frame.gray.width(),
                                        .height = frame.gray.height()},
-                                      category_ids);
+                                      model.shapes);
         }
         Json list = Json::array();
         for (const ism::Result& result : results) list.push_back(ism::detail::result_to_json(result));
@@ -225,7 +223,8 @@ PythonModel train(const py::object& coco, const py::object& images, const py::ob
     options.selection.max_words = max_words;
     options.codebook.seed = seed;
     ism::check(options);
-    PythonModel learnt{{}, dataset.category_ids};
+    set.category_ids = dataset.category_ids;
+    PythonModel learnt;
     const ism::TrainingFeatures features = program::extract_training_features(
         dataset.class_names, set, {program::make_extractor(detector, descriptor)}, options);
     learnt.model = program::learn(features, options);
@@ -236,7 +235,8 @@ PythonModel train(const py::object& coco, const py::object& images, const py::ob
             if (arrays[i].depth && dataset.images[i].camera) chosen.push_back(i);
         const ism::TrainingSet rgbd{.size = chosen.size(),
                                     .labels = [&](std::size_t i) { return set.labels(chosen[i]); },
-                                    .image = [&](std::size_t i) { return set.image(chosen[i]); }};
+                                    .image = [&](std::size_t i) { return set.image(chosen[i]); },
+                                    .category_ids = set.category_ids};
         learnt.model.rgbd = {program::learn_rgbd(dataset.class_names, rgbd, options)};
     }
     return learnt;
@@ -270,8 +270,9 @@ PYBIND11_MODULE(_ism, module) {
              "Finds the objects of an image: a list of COCO results, strongest first.")
         .def("save", &PythonModel::save, "path"_a, "Writes the model as a safetensors file.")
         .def("info", &PythonModel::info, "What the model is made of.")
-        .def_property("categories", &PythonModel::categories, &PythonModel::set_categories,
-                      "COCO's categories, in the order of the classes; of a loaded model 1, 2, ...");
+        .def_property(
+            "categories", &PythonModel::categories, &PythonModel::set_categories,
+            "COCO's categories, in the order of the classes: those of the training data, else 1, 2, ...");
     module.def("load", &PythonModel::load, "path"_a, "Reads a model of `ism train` or Model.save().");
     module.def("train", &ism_python::train, "coco"_a, "images"_a, "depths"_a = py::none(), py::kw_only(),
                "detector"_a = "hessian-laplace", "descriptor"_a = "root-sift", "templates"_a = true,

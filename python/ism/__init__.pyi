@@ -17,7 +17,9 @@ class Rle(TypedDict):
     size: List[int]  # height, width
     counts: str  # as pycocotools packs them
 
-class _ResultBase(TypedDict):
+_Named = TypedDict("_Named", {"class": str})
+
+class _ResultBase(_Named):
     image_id: int
     category_id: int
     bbox: List[float]  # x, y, width, height
@@ -27,8 +29,9 @@ class _ResultBase(TypedDict):
 
 class Result(_ResultBase, total=False):
     probability: float
-    depth_m: Optional[float]
+    depth_m: float
     position_m: List[float]  # x right, y down, z forward of the camera
+    position_error_m: float  # standard error
 
 class Error(ValueError): ...
 

@@ -70,7 +70,8 @@ def test_learns_and_finds(model):
     found = model.detect(picture(50, 10), image_id=99)
     assert found and found == sorted(found, key=lambda result: -result["score"])
     best = found[0]
-    assert best["image_id"] == 99 and best["category_id"] == 30
+    assert best["image_id"] == 99 and best["category_id"] == 30 and best["class"] == "carpet"
+    assert "depth_m" not in best  # nothing is known of it
     assert iou(best["bbox"], [50, 10, 64, 64]) > 0.7
     mask = ism.decode_mask(best["segmentation"])
     assert mask.shape == (SIDE, SIDE) and mask.dtype == np.uint8
@@ -115,7 +116,13 @@ def test_models_are_files_of_the_program(model, tmp_path):
     loaded = ism.load(path)
     info = loaded.info()
     assert info == model.info() and info["classes"] == ["carpet"] and info["words"] > 0 and info["images"] == 3
-    loaded.categories = [{"id": 5, "name": "other"}, {"id": 30, "name": "carpet"}]
+    assert loaded.categories == model.categories
+    loaded.categories = [{"id": 5, "name": "other"}, {"id": 31, "name": "carpet"}]
+    assert loaded.detect(picture(50, 10))[0]["category_id"] == 31
+    loaded.save(path)
+    loaded = ism.load(path)
+    assert loaded.categories == [{"id": 31, "name": "carpet"}]
+    loaded.categories = model.categories
     assert loaded.detect(picture(50, 10)) == model.detect(picture(50, 10))
     with pytest.raises(ValueError, match="none.safetensors"):
         ism.load(tmp_path / "none.safetensors")
@@ -147,7 +154,7 @@ def test_finds_what_the_program_finds(images, tmp_path, templates):
     run("detect", "--model", "model.safetensors", "--data", "coco.json", "-o", "found.json")
     by_program = json.loads((tmp_path / "found.json").read_text())
     found = [result for i in PLACES for result in learnt.detect(images[i], image_id=i)]
-    keys = ["image_id", "category_id", "bbox", "score", "segmentation"]
+    keys = ["image_id", "category_id", "class", "bbox", "score", "segmentation"]
     assert found and [[r[k] for k in keys] for r in found] == [[r[k] for k in keys] for r in by_program]
     # … and learns.
     options = [] if templates else ["--no-templates"]
