@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,20 +23,30 @@
 
 namespace ism {
 
+/// @brief Reads an image file as read_picture() does; a function of one's own reads more formats.
+using PictureReader = Picture (*)(const std::filesystem::path&, std::optional<ImageSize>);
+
 /// @brief Reads an image's brightness and colour, its depth in metres where it has a depth file, and its
-/// camera.
+/// camera. A JPEG is turned as its EXIF orientation says, unless the data set's size is that of its stored
+/// pixels and not that of the shown ones: then they stay as they are stored.
 /// @throws FileError, naming the file, where one cannot be read, is of another size than the data set says,
-/// is smaller than 16×16, has no depth reading at all, or a depth scale that check_depth_scale() refuses.
-[[nodiscard]] inline Frame read_frame(const DatasetImage& image) {
+/// is smaller than 16×16, has no depth reading at all, a depth scale that check_depth_scale() refuses, or has
+/// depth and was turned: nothing tells whether the depth was turned too.
+[[nodiscard]] inline Frame read_frame(const DatasetImage& image, PictureReader read = read_picture) {
     const auto check_size = [&](const std::filesystem::path& file, const auto& pixels) {
         if (pixels.width() != image.width || pixels.height() != image.height)
             throw FileError(join_text(file_text(file), ": expected ", detail::sides_text(image),
                                       " pixels as its data set says, got ", size_text(pixels)));
     };
-    Picture picture = read_picture(image.file);
+    Picture picture = read(image.file, ImageSize{image.width, image.height});
     Frame frame{.gray = std::move(picture.gray), .color = std::move(picture.color)};
     check_size(image.file, frame.gray);
     if (!image.depth_file.empty()) {
+        if (picture.orientation != 1)
+            throw FileError(join_text(file_text(image.file),
+                                      ": expected a picture stored upright beside depth, got one that EXIF "
+                                      "turns (orientation ",
+                                      picture.orientation, ")"));
         const RawDepth raw = read_raw_depth(image.depth_file);
         check_size(image.depth_file, raw);
         frame.depth_m = to_metres(raw, image.depth_scale);
@@ -48,8 +59,9 @@ namespace ism {
 
 /// @brief Reads an image and decodes its objects' masks; crowds are left out.
 /// @throws FileError as read_frame() and read_mask() do.
-[[nodiscard]] inline TrainingImage read_training_image(const DatasetImage& image) {
-    TrainingImage training{.frame = read_frame(image), .name = image.file.string()};
+[[nodiscard]] inline TrainingImage read_training_image(const DatasetImage& image,
+                                                       PictureReader read = read_picture) {
+    TrainingImage training{.frame = read_frame(image, read), .name = image.file.string()};
     for (const DatasetAnnotation& object : image.objects)
         if (!object.crowd)
             training.objects.push_back({.class_index = object.class_index,
@@ -62,7 +74,7 @@ namespace ism {
 
 /// @brief The images of a data set to learn from: labels without opening a file, images when they are needed.
 /// @param dataset  has to stay as long as the set
-[[nodiscard]] inline TrainingSet training_set(const Dataset& dataset) {
+[[nodiscard]] inline TrainingSet training_set(const Dataset& dataset, PictureReader read = read_picture) {
     return {.size = dataset.images.size(),
             .labels =
                 [&dataset](std::size_t i) {
@@ -71,7 +83,7 @@ namespace ism {
                         if (!object.crowd) labels.push_back({std::uint32_t(object.class_index), object.box});
                     return labels;
                 },
-            .image = [&dataset](std::size_t i) { return read_training_image(dataset.images[i]); },
+            .image = [&dataset, read](std::size_t i) { return read_training_image(dataset.images[i], read); },
             .category_ids = dataset.category_ids};
 }
 

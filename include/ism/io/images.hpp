@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #if __has_include(<stb/stb_image.h>)
@@ -19,12 +21,30 @@
 #endif
 
 #include "ism/core/image.hpp"
+#include "ism/io/exif.hpp"
 #include "ism/io/limits.hpp"
 #include "ism/io/png.hpp"
 #include "ism/io/stb_guard.hpp"
 #include "ism/io/write_file.hpp"
 
 namespace ism {
+
+/// @brief The sides of an image, pixels.
+struct ImageSize {
+    int width = 0, height = 0;
+    [[nodiscard]] bool operator==(const ImageSize&) const = default;
+};
+
+/// @brief The sides of an image file's pixels as they are shown and as they are stored: for a JPEG they
+/// differ where EXIF turns it by a quarter.
+struct ImageFileSize {
+    ImageSize shown, stored;
+
+    /// @brief Whether who labelled an image of this size saw its pixels as they are stored.
+    [[nodiscard]] bool is_stored(const ImageSize& labelled) const {
+        return labelled == stored && !(labelled == shown);
+    }
+};
 
 namespace detail {
 
@@ -33,9 +53,14 @@ struct ImageFile {
     std::filesystem::path path;
     std::vector<std::uint8_t> bytes;  ///< at most 2^30
     int width = 0, height = 0;
-    int channels = 0;   ///< 1 grey, 2 grey + alpha, 3 colour, 4 colour + alpha
-    bool deep = false;  ///< 16 bits a channel
+    int channels = 0;     ///< 1 grey, 2 grey + alpha, 3 colour, 4 colour + alpha
+    bool deep = false;    ///< 16 bits a channel
+    int orientation = 1;  ///< see exif_orientation()
 
+    [[nodiscard]] ImageFileSize size() const {
+        const ImageSize stored{width, height};
+        return {orientation >= 5 ? ImageSize{height, width} : stored, stored};
+    }
     [[noreturn]] void refuse(std::string_view expected, std::string_view actual) const {
         throw FileError(join_text(file_text(path), ": expected ", expected, ", got ", actual));
     }
@@ -46,12 +71,16 @@ struct ImageFile {
     ImageFile file{.path = path, .bytes = read_bytes(path, most_bytes)};
     if (file.bytes.empty()) file.refuse("an image", "an empty file");
     const ImageFormat format = image_format(file.bytes);
-    if (format == ImageFormat::unknown) file.refuse("a PNG, JPEG, BMP or PNM image", "something else");
+    if (format == ImageFormat::unknown)
+        file.refuse("a PNG, JPEG, BMP or PNM image", other_image_format(file.bytes));
     const auto refuse_damage = [&](const std::string& damage) {
         if (!damage.empty()) file.refuse("a whole image", damage);
     };
     if (format == ImageFormat::png) refuse_damage(png_damage(file.bytes));
-    if (format == ImageFormat::jpeg) refuse_damage(jpeg_damage(file.bytes));
+    if (format == ImageFormat::jpeg) {
+        refuse_damage(jpeg_damage(file.bytes));
+        file.orientation = exif_orientation(file.bytes);
+    }
     if (!stbi_info_from_memory(file.bytes.data(), int(file.bytes.size()), &file.width, &file.height,
                                &file.channels))
         file.refuse("an image", join_text("a damaged one (", stbi_failure_reason(), ")"));
@@ -93,7 +122,7 @@ namespace detail {
     RgbImage image(file.width, file.height);
     const std::uint8_t* at = samples.get();
     for (Rgb& pixel : image.pixels()) pixel = {at[0], at[1], at[2]}, at += 3;
-    return image;
+    return turned(std::move(image), file.orientation);
 }
 
 [[nodiscard]] inline GrayImage decode_gray(const ImageFile& file) {
@@ -109,13 +138,13 @@ namespace detail {
         fill(decode(file, colored ? 3 : 1, stbi_load_16_from_memory).get(), 65535.0f);
     else
         fill(decode(file, colored ? 3 : 1, stbi_load_from_memory).get(), 255.0f);
-    return image;
+    return turned(std::move(image), file.orientation);
 }
 
 }  // namespace detail
 
 /// @brief Reads a PNG, JPEG, BMP or binary PNM file as colour: grey becomes r = g = b, transparency is
-/// dropped, 16 bits are cut to 8.
+/// dropped, 16 bits are cut to 8, and a JPEG is turned as its EXIF orientation says.
 /// @throws FileError where the file is missing, a folder, no image, truncated, damaged, or too large.
 [[nodiscard]] inline RgbImage read_rgb(const std::filesystem::path& path) {
     return detail::decode_rgb(detail::open_image(path));
@@ -132,13 +161,24 @@ namespace detail {
 struct Picture {
     GrayImage gray;
     RgbImage color;
+    int orientation = 1;  ///< how they were turned: see exif_orientation()
 };
 
-/// @brief What read_gray() and read_rgb() read; colours of 8 bits are decoded once.
+/// @brief The size of an image file; its pixels are not decoded.
 /// @throws FileError as read_rgb() does.
-[[nodiscard]] inline Picture read_picture(const std::filesystem::path& path) {
-    const detail::ImageFile file = detail::open_image(path);
-    Picture picture{.gray = {}, .color = detail::decode_rgb(file)};
+[[nodiscard]] inline ImageFileSize read_image_size(const std::filesystem::path& path) {
+    return detail::open_image(path).size();
+}
+
+/// @brief What read_gray() and read_rgb() read; colours of 8 bits are decoded once.
+/// @param labelled  the size that labels tell of the image: where it is that of the stored pixels and not
+/// that of the shown ones, pixels stay as they are stored
+/// @throws FileError as read_rgb() does.
+[[nodiscard]] inline Picture read_picture(const std::filesystem::path& path,
+                                          std::optional<ImageSize> labelled = {}) {
+    detail::ImageFile file = detail::open_image(path);
+    if (labelled && file.size().is_stored(*labelled)) file.orientation = 1;
+    Picture picture{.gray = {}, .color = detail::decode_rgb(file), .orientation = file.orientation};
     picture.gray = file.channels >= 3 && !file.deep ? to_gray(picture.color) : detail::decode_gray(file);
     return picture;
 }

@@ -143,6 +143,19 @@ enum class ImageFormat { unknown, png, jpeg, bmp, pnm };
     return ImageFormat::unknown;
 }
 
+/// @brief What a file is that stb does not read, for messages.
+[[nodiscard]] inline std::string_view other_image_format(ByteSpan bytes) {
+    if (starts_with(bytes, "RIFF") && bytes.size() >= 12 && starts_with(bytes.subspan(8), "WEBP"))
+        return "a WebP image";
+    if (starts_with(bytes, {"II*\0", 4}) || starts_with(bytes, {"MM\0*", 4})) return "a TIFF image";
+    if (starts_with(bytes, "GIF8")) return "a GIF image";
+    if (bytes.size() >= 12 && starts_with(bytes.subspan(4), "ftypavi")) return "an AVIF image";
+    if (bytes.size() >= 12 && starts_with(bytes.subspan(4), "ftyp"))
+        for (const std::string_view brand : {"hei", "hev", "mif1", "msf1"})
+            if (starts_with(bytes.subspan(8), brand)) return "a HEIC image";
+    return "something else";
+}
+
 [[nodiscard]] inline std::uint32_t big_endian(ByteSpan bytes, std::size_t at) {
     return std::uint32_t(bytes[at]) << 24 | std::uint32_t(bytes[at + 1]) << 16 |
            std::uint32_t(bytes[at + 2]) << 8 | bytes[at + 3];
