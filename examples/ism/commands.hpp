@@ -79,6 +79,7 @@ struct EvaluateCommand {
     ism::EvaluateOptions options = {};
     bool coco = false;                           ///< COCO's rule in place of that of the options
     std::filesystem::path json = {}, plot = {};  ///< empty = none
+    bool skip_bad = false;
 };
 
 struct DemoCommand {

@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "commands.hpp"
+#include "data.hpp"
 #include "extractors.hpp"
 #include "image_list.hpp"
 #include "input.hpp"
@@ -18,7 +19,6 @@
 
 #include "ism/core/nearest_name.hpp"
 #include "ism/core/thread_pool.hpp"
-#include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/dataset/to_results.hpp"
 #include "ism/detect/frame_matcher.hpp"
@@ -49,10 +49,22 @@ ism::Dataset as_dataset(const ImageList& list, const DetectCommand& command, con
     return dataset;
 }
 
+/// Where the classes of a data set are only those that its labels name, or none: adds those of the model.
+void add_classes(ism::Dataset& dataset, const ism::ShapeModel& shapes) {
+    if (dataset.classes_listed && !dataset.class_names.empty()) return;
+    for (const std::string& name : shapes.class_names) {
+        const auto& known = dataset.class_names;
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        dataset.class_names.push_back(name);
+        dataset.category_ids.push_back(std::int64_t(dataset.class_names.size()));
+    }
+}
+
 /// Makes sure that a labelled data set has the classes of the model, and tells where their numbers differ.
 /// @throws ism::Error where it lacks one.
 void check_classes(const ism::Dataset& dataset, const ism::ShapeModel& shapes) {
     const auto labelled = [](const ism::DatasetImage& image) { return !image.objects.empty(); };
+    if (!dataset.classes_listed) return;
     if (std::none_of(dataset.images.begin(), dataset.images.end(), labelled)) return;
     const std::vector<std::int64_t> ids = ism::result_category_ids(shapes);
     for (std::size_t c = 0; c < ids.size(); ++c) {
@@ -217,7 +229,9 @@ void run_detect(const DetectCommand& command) {
     const std::vector<fs::path> shown = command.show ? overlay_files(list.images()) : std::vector<fs::path>();
     const ism::Model model = ism::load_model(command.model);
     const ism::ShapeModel& shapes = model.shapes;
-    ism::Dataset dataset = pictures ? as_dataset(list, command, shapes) : ism::read_dataset(command.data);
+    ism::Dataset dataset = pictures ? as_dataset(list, command, shapes)
+                                    : read_data(command.data, ism::DatasetPart::test, command.skip_bad);
+    add_classes(dataset, shapes);
     check_classes(dataset, shapes);
     check_depth(command, dataset);
     ism::expect(command.search.space != metric_space || !model.rgbd.empty(), "--space metric",

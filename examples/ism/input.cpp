@@ -36,6 +36,18 @@ std::string short_name(const ism::Dataset& dataset, const ism::DatasetImage& ima
     return ism::path_to_utf8(ism::relative_to(image.file, dataset.source.parent_path()));
 }
 
+void tell_faults(std::span<const std::string> faults, const std::string& of_what, bool skip_bad) {
+    constexpr std::size_t most_named = 20;
+    for (std::size_t i = 0; i < std::min(most_named, faults.size()); ++i)
+        std::fprintf(stderr, "ism: %s\n", faults[i].c_str());
+    if (faults.size() > most_named)
+        std::fprintf(stderr, "ism: ... and %zu more\n", faults.size() - most_named);
+    if (!faults.empty() && !skip_bad)
+        throw ism::Error(
+            ism::join_text(faults.size(), " ", of_what,
+                           " cannot be used; nothing was written (--skip-bad goes on without them)"));
+}
+
 void Doubts::add(const fs::path& file, const std::string& text) {
     if (text.empty()) return;
     const std::lock_guard lock(mutex_);
@@ -51,7 +63,6 @@ void Doubts::tell() const {
 
 std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
                          const std::function<void(ism::DatasetImage&)>& read) {
-    constexpr std::size_t most_named = 20;
     const std::size_t count = dataset.images.size();
     std::vector<std::optional<std::string>> faults(count);
     {
@@ -65,24 +76,19 @@ std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
             progress.step("checking images", count);
         });
     }
-    if (count == 1 && faults[0]) throw ism::Error(*faults[0]);
     std::vector<ism::DatasetImage> good;
-    std::size_t bad = 0;
+    std::vector<std::string> told;
     for (std::size_t i = 0; i < count; ++i) {
-        if (!faults[i]) {
+        if (faults[i])
+            told.push_back(std::move(*faults[i]));
+        else
             good.push_back(std::move(dataset.images[i]));
-        } else if (++bad <= most_named) {
-            std::fprintf(stderr, "ism: %s\n", faults[i]->c_str());
-        }
     }
-    if (bad > most_named) std::fprintf(stderr, "ism: ... and %zu more\n", bad - most_named);
-    if (bad > 0 && !skip_bad)
-        throw ism::Error(
-            ism::join_text(bad, " of ", count,
-                           " images cannot be used; nothing was written (--skip-bad goes on without them)"));
+    if (count == 1 && !told.empty()) throw ism::Error(told[0]);
+    tell_faults(told, ism::join_text("of ", count, " images"), skip_bad);
     ism::expect(!good.empty(), "images that can be used", "1 or more", ism::lazy_text("none of ", count));
     dataset.images = std::move(good);
-    return bad;
+    return told.size();
 }
 
 void check_output(const fs::path& file, std::span<const fs::path> inputs) {

@@ -33,6 +33,11 @@ template <class Texts>
 /// The name of an image as seen from its data set's folder.
 [[nodiscard]] std::string short_name(const ism::Dataset& dataset, const ism::DatasetImage& image);
 
+/// Names what is wrong on stderr, up to 20 lines and a count.
+/// @throws ism::Error where there is something and `skip_bad` is not given; what is alone wrong is its
+/// message.
+void tell_faults(std::span<const std::string> faults, const std::string& of_what, bool skip_bad);
+
 /// What is doubtful about files, told as one line: the first of them by name, and how many there are. May be
 /// added to from several threads.
 class Doubts {

@@ -31,12 +31,15 @@ void add_threads(CLI::App& app, unsigned& threads) {
 }
 
 void add_skip_bad(CLI::App& app, bool& skip_bad) {
-    app.add_flag("--skip-bad", skip_bad, "name images that cannot be used, and go on without them");
+    app.add_flag("--skip-bad", skip_bad,
+                 "name images and labels that cannot be used, and go on without them");
 }
+
+constexpr const char* data_text = "labelled images: COCO JSON, or a folder with one folder of images a class";
 
 void add_train(CLI::App& parent, program::TrainCommand& command) {
     CLI::App& app = *parent.add_subcommand("train", "learn a model from labelled images");
-    app.add_option("--data", command.data, "labelled images, COCO JSON")->required();
+    app.add_option("--data", command.data, data_text)->required();
     app.add_option("-o,--output", command.model, "model file to write")->required();
     app.add_option("--class", command.classes, "learn this class only; may be given several times")
         ->take_all()
@@ -115,7 +118,8 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
     CLI::App& app = *parent.add_subcommand("detect", "find objects in images");
     app.footer(detect_help);
     app.add_option("--model", command.model, "model file")->required();
-    CLI::Option* data = app.add_option("--data", command.data, "images, COCO JSON");
+    CLI::Option* data =
+        app.add_option("--data", command.data, "images, also without labels: as of ism train");
     CLI::Option* images = app.add_option("images", command.images,
                                          "image files, folders, patterns ('*.jpg'), or - for an image at "
                                          "standard input")
@@ -201,7 +205,7 @@ void add_evaluate(CLI::App& parent, program::EvaluateCommand& command) {
     CLI::App& app = *parent.add_subcommand("evaluate",
                                            "measure what was found: average precision (AP), precision where "
                                            "it equals recall (EER), best F1, IoU of masks");
-    app.add_option("--data", command.data, "labelled images, COCO JSON")->required();
+    app.add_option("--data", command.data, data_text)->required();
     app.add_option("--detections", command.detections, "results, COCO JSON")->required();
     only(app.add_option_function<std::string>(
              "--rule",
@@ -220,6 +224,7 @@ void add_evaluate(CLI::App& parent, program::EvaluateCommand& command) {
                    "least overlap of a right box by the rule iou");
     app.add_option("--json", command.json, "figures to write, JSON");
     const CLI::Option* plot = app.add_option("--plot", command.plot, "precision-recall curves to write, SVG");
+    add_skip_bad(app, command.skip_bad);
     app.callback([&command, iou, plot] {
         for (const CLI::Option* other : {iou, plot})
             ism::expect(!command.coco || other->count() == 0, "--rule coco",

@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "data.hpp"
 #include "extractors.hpp"
 #include "input.hpp"
 #include "learning.hpp"
 #include "progress.hpp"
 
-#include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/model_file/model_file.hpp"
 #include "ism/train/select_words.hpp"
@@ -99,7 +99,9 @@ void run_train(const TrainCommand& command) {
     if (!command.add_to.empty()) known = lessons_of(command.add_to, options);
     const bool templates = command.templates && (!known || known->templates);
     options.features.pixels = templates;
-    ism::Dataset dataset = ism::read_dataset(command.data);
+    ism::Dataset dataset = read_data(command.data, ism::DatasetPart::train, command.skip_bad);
+    ism::expect(!dataset.class_names.empty(), ism::file_text(command.data), "labels to learn from",
+                "images without");
     if (!command.classes.empty()) dataset = ism::select_classes(dataset, command.classes);
     Doubts doubts;
     const std::size_t skipped =

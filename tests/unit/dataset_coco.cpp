@@ -110,12 +110,11 @@ TEST_CASE("A data set that is none is refused with the place") {
         "file 'a.json': expected well-formed JSON, got parse error at line 1, column 1"));
     CHECK(read_error("[1e999]").starts_with("file 'a.json': expected well-formed JSON, got "));
     CHECK(read_error("[1]") == "file 'a.json': expected an object, got an array of 1");
-    CHECK(read_error("{}") == "file 'a.json': categories: expected an array, got nothing");
+    CHECK(read_error("{}") == "file 'a.json': images: expected an array, got nothing");
+    CHECK(read_error(R"({"annotations":[]})") == "file 'a.json': categories: expected an array, got nothing");
     CHECK(read_error("{" + categories + "}") == "file 'a.json': images: expected an array, got nothing");
     CHECK(read_error("{" + categories + R"(,"images":3})") ==
           "file 'a.json': images: expected an array, got 3");
-    CHECK(read_error("{" + categories + R"(,"images":[]})") ==
-          "file 'a.json': annotations: expected an array, got nothing");
     CHECK(read_error(R"({"categories":[{"name":"cup"}]})") ==
           "file 'a.json', category: id: expected a whole number, got nothing");
     CHECK(read_error(R"({"categories":[{"id":1,"name":""}]})") ==
@@ -389,4 +388,54 @@ TEST_CASE("Classes selected keep their images and background alone, in the order
     CHECK(error({"dog"}) == "class to select: expected one of: cup, car, cow, got 'dog'");
     CHECK(error({"cow", "cow"}) == "class to select: expected each name once, got 'cow' twice");
     CHECK(error({}) == "classes to select: expected at least one of: cup, car, cow, got none");
+}
+
+TEST_CASE("Without annotations, or without categories too, there are images alone") {
+    const TemporaryFolder folder;
+    const Dataset named = read(folder, "{" + categories + R"(,"images":[)" + image_1 + "]}");
+    CHECK(named.class_names == std::vector<std::string>{"cup", "car"});
+    REQUIRE(named.images.size() == 1);
+    CHECK(named.images[0].objects.empty());
+    CHECK(read(folder, R"({"images":[)" + image_1 + "]}").class_names.empty());
+}
+
+TEST_CASE("An empty category 0 that others name as their supercategory is no class") {
+    const TemporaryFolder folder;
+    const auto names = [&](const std::string& given, int category_of_object) {
+        return read(folder, R"({"categories":[)" + given + R"(],"images":[)" + image_1 +
+                                R"(],"annotations":[{"id":1,"image_id":1,"bbox":[1,2,3,4],"category_id":)" +
+                                std::to_string(category_of_object) + "}]}")
+            .class_names;
+    };
+    using Names = std::vector<std::string>;
+    const std::string group = R"({"id":0,"name":"cars","supercategory":"none"},)";
+    const std::string car = R"({"id":1,"name":"car","supercategory":"cars"})";
+    CHECK(names(group + car, 1) == Names{"car"});
+    CHECK(names(group + car, 0) == Names{"cars", "car"});  // it has an object: a class
+    CHECK(names(group + R"({"id":1,"name":"car"})", 1) == Names{"cars", "car"});
+    // also where the group is called as its class is
+    CHECK(names(R"({"id":0,"name":"cars"},{"id":1,"name":"cars","supercategory":"cars"})", 1) ==
+          Names{"cars"});
+    CHECK(names(R"({"id":0,"name":"a","supercategory":"a"},{"id":1,"name":"b"})", 1) == Names{"a", "b"});
+}
+
+TEST_CASE("With a list of faults a bad annotation alone is left out") {
+    const TemporaryFolder folder;
+    ism::write_file(folder / "a.json",
+                    with_annotations(R"({"id":1,"image_id":1,"category_id":3,"bbox":[1,2,3,4]},
+        {"id":2,"image_id":1,"category_id":3,"bbox":[1,2,0,4]},
+        {"id":3,"image_id":9,"category_id":3,"bbox":[1,2,3,4]},
+        {"id":4,"image_id":1,"category_id":5,"bbox":[1,2,3,4]},
+        {"id":5,"image_id":1,"category_id":3,"bbox":[1,2,3,4],"segmentation":[[1,2,3]]},
+        {"id":1,"image_id":1,"category_id":3,"bbox":[1,2,3,4]}, 7,
+        {"id":6,"image_id":1,"category_id":7,"segmentation":[[1,2,9,2,9,8]]})"));
+    ism::Faults faults;
+    const Dataset dataset = ism::read_dataset(folder / "a.json", &faults);
+    REQUIRE(dataset.images[0].objects.size() == 2);
+    CHECK(dataset.images[0].objects[1].id == 6);
+    REQUIRE(faults.size() == 6);
+    CHECK(faults[0].ends_with("bbox: expected a width and height above 0, got 0x4"));
+    CHECK(faults[1].ends_with("annotation with id 3: image_id: expected the id of one of its images, got 9"));
+    for (const std::string& fault : faults) CHECK(fault.find("a.json") != std::string::npos);
+    CHECK(error_message<FileError>([&] { (void)ism::read_dataset(folder / "a.json"); }) == faults[0]);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "ism/core/box_check.hpp"
 #include "ism/dataset/coco_fields.hpp"
 #include "ism/dataset/dataset.hpp"
+#include "ism/dataset/faults.hpp"
 #include "ism/io/json.hpp"
 #include "ism/io/paths.hpp"
 
@@ -77,18 +79,78 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
     at_place(place, [&] { check_labelled_box(annotation.box, image.width, image.height); });
 }
 
-[[nodiscard]] inline Dataset dataset_from_json(const Json& root, const std::filesystem::path& path) {
+/// @brief Whether a category is none of its own but the name of the others' group, as Roboflow writes it:
+/// number 0, which others name as their supercategory and no annotation has.
+[[nodiscard]] inline bool is_empty_group(const Json& category, const Json& categories, const Json& labels) {
+    const auto has = [](const Json& record, const char* key, const Json& value) {
+        return record.is_object() && record.contains(key) && record[key] == value;
+    };
+    if (!has(category, "id", 0) || !category.contains("name")) return false;
+    const auto is_below = [&](const Json& other) {
+        return !has(other, "id", 0) && has(other, "supercategory", category["name"]);
+    };
+    const auto has_it = [&](const Json& label) { return has(label, "category_id", 0); };
+    return std::any_of(categories.begin(), categories.end(), is_below) &&
+           std::none_of(labels.begin(), labels.end(), has_it);
+}
+
+/// @brief The images and classes that annotations refer to by number.
+struct CocoNumbers {
+    std::map<std::int64_t, std::size_t> image_of = {};
+    std::map<std::int64_t, std::uint32_t> class_of = {};
+    std::set<std::int64_t> annotations = {};
+};
+
+inline void read_annotation(const Json& record, const std::string& file, CocoNumbers& numbers,
+                            Dataset& dataset) {
+    DatasetAnnotation annotation;
+    annotation.id = integer_member(record, "id", file + ", annotation");
+    const std::string own = join_text(file, ", annotation with id ", annotation.id);
+    if (!numbers.annotations.insert(annotation.id).second) refuse_json(own, "id", "each id once", "it twice");
+    const std::int64_t image_id = integer_member(record, "image_id", own);
+    const auto image_at = numbers.image_of.find(image_id);
+    if (image_at == numbers.image_of.end())
+        refuse_json(own, "image_id", "the id of one of its images", join_text(image_id));
+    DatasetImage& image = dataset.images[image_at->second];
+    const std::string place =
+        join_text(own, " of image ", image_id, " ('", one_line(image.file.string()), "')");
+    const std::int64_t category_id = integer_member(record, "category_id", place);
+    const auto class_at = numbers.class_of.find(category_id);
+    if (class_at == numbers.class_of.end())
+        refuse_json(place, "category_id", "the id of one of its categories", join_text(category_id));
+    annotation.class_index = class_at->second;
+    if (const Json* crowd = optional_member(record, "iscrowd", place))
+        annotation.crowd =
+            crowd->is_boolean() ? crowd->get<bool>() : to_integer(*crowd, "iscrowd", place) != 0;
+    if (const Json* instance = optional_member(record, "instance", place))
+        annotation.instance = instance->is_number() ? join_text(to_integer(*instance, "instance", place))
+                                                    : to_text(*instance, "instance", place);
+    read_outline(record, image, place, annotation);
+    if (const Json* position = optional_member(record, "position_m", place)) {
+        annotation.position_m = position_from_json(*position, place);
+        if (!(annotation.position_m->z > 0))
+            refuse_json(place, "position_m", "a place before the camera, z above 0", json_text(*position));
+    }
+    image.objects.push_back(std::move(annotation));
+}
+
+[[nodiscard]] inline Dataset dataset_from_json(const Json& root, const std::filesystem::path& path,
+                                               Faults* faults = nullptr) {
     const std::string file = file_text(path);
     Dataset dataset{.source = path};
-    std::map<std::int64_t, std::size_t> image_of;
-    std::map<std::int64_t, std::uint32_t> class_of;
+    CocoNumbers numbers;
     std::set<std::string> names;
-    std::set<std::int64_t> annotation_ids;
-    for (const Json& record : array_member(root, "categories", file)) {
+    const Json none = Json::array();
+    const bool labelled = optional_member(root, "annotations", file) != nullptr;
+    const Json& labels = labelled ? array_member(root, "annotations", file) : none;
+    const bool named = labelled || optional_member(root, "categories", file) != nullptr;
+    const Json& categories = named ? array_member(root, "categories", file) : none;
+    for (const Json& record : categories) {
+        if (is_empty_group(record, categories, labels)) continue;
         const std::int64_t id = integer_member(record, "id", file + ", category");
         const std::string place = join_text(file, ", category with id ", id);
         const std::string& name = text_member(record, "name", place);
-        if (!class_of.emplace(id, std::uint32_t(class_of.size())).second)
+        if (!numbers.class_of.emplace(id, std::uint32_t(dataset.class_names.size())).second)
             refuse_json(place, "id", "each id once", "it twice");
         if (!names.insert(name).second) refuse_json(place, "name", "each name once", "'" + name + "' twice");
         dataset.class_names.push_back(name);
@@ -97,41 +159,11 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
     for (const Json& record : array_member(root, "images", file)) {
         dataset.images.push_back(image_from_json(record, path.parent_path(), file + ", image"));
         const std::int64_t id = dataset.images.back().id;
-        if (!image_of.emplace(id, image_of.size()).second)
+        if (!numbers.image_of.emplace(id, numbers.image_of.size()).second)
             refuse_json(join_text(file, ", image with id ", id), "id", "each id once", "it twice");
     }
-    for (const Json& record : array_member(root, "annotations", file)) {
-        DatasetAnnotation annotation;
-        annotation.id = integer_member(record, "id", file + ", annotation");
-        const std::string own = join_text(file, ", annotation with id ", annotation.id);
-        if (!annotation_ids.insert(annotation.id).second) refuse_json(own, "id", "each id once", "it twice");
-        const std::int64_t image_id = integer_member(record, "image_id", own);
-        const auto image_at = image_of.find(image_id);
-        if (image_at == image_of.end())
-            refuse_json(own, "image_id", "the id of one of its images", join_text(image_id));
-        DatasetImage& image = dataset.images[image_at->second];
-        const std::string place =
-            join_text(own, " of image ", image_id, " ('", one_line(image.file.string()), "')");
-        const std::int64_t category_id = integer_member(record, "category_id", place);
-        const auto class_at = class_of.find(category_id);
-        if (class_at == class_of.end())
-            refuse_json(place, "category_id", "the id of one of its categories", join_text(category_id));
-        annotation.class_index = class_at->second;
-        if (const Json* crowd = optional_member(record, "iscrowd", place))
-            annotation.crowd =
-                crowd->is_boolean() ? crowd->get<bool>() : to_integer(*crowd, "iscrowd", place) != 0;
-        if (const Json* instance = optional_member(record, "instance", place))
-            annotation.instance = instance->is_number() ? join_text(to_integer(*instance, "instance", place))
-                                                        : to_text(*instance, "instance", place);
-        read_outline(record, image, place, annotation);
-        if (const Json* position = optional_member(record, "position_m", place)) {
-            annotation.position_m = position_from_json(*position, place);
-            if (!(annotation.position_m->z > 0))
-                refuse_json(place, "position_m", "a place before the camera, z above 0",
-                            json_text(*position));
-        }
-        image.objects.push_back(std::move(annotation));
-    }
+    for (const Json& record : labels)
+        read_or_tell(faults, [&] { read_annotation(record, file, numbers, dataset); });
     return dataset;
 }
 
@@ -141,12 +173,14 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
 /// lengths as text or array, or polygons), iscrowd, and instance (a text or number that names the thing). Per
 /// image also depth_file_name, depth_scale (metres per unit) and camera {fx, fy, cx, cy}, per annotation
 /// position_m [x, y, z]. File names count from the JSON's folder. A missing bbox is taken from the
-/// segmentation. Images are not opened yet.
+/// segmentation. Without annotations and categories images have no labels. An empty category 0 that others
+/// name as their supercategory is no class. Images are not opened yet.
+/// @param faults  where given, annotations that make no sense are left out, and told there
 /// @throws FileError, naming the file, the image and the annotation, where the file cannot be read, is no
 /// JSON (with line and column), lacks a key, repeats an id, names an unknown image or category, or a box
 /// (see check_labelled_box()), mask size, depth scale, camera or position makes no sense.
-[[nodiscard]] inline Dataset read_dataset(const std::filesystem::path& path) {
-    return detail::dataset_from_json(detail::read_json(path), path);
+[[nodiscard]] inline Dataset read_dataset(const std::filesystem::path& path, Faults* faults = nullptr) {
+    return detail::dataset_from_json(detail::read_json(path), path, faults);
 }
 
 }  // namespace ism

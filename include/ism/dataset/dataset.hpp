@@ -56,10 +56,11 @@ struct DatasetImage {
 
 /// @brief Labelled images.
 struct Dataset {
-    std::filesystem::path source = {};  ///< the file it was read from
+    std::filesystem::path source = {};  ///< the file it was read from, or the folder with a "/" at its end
     std::vector<std::string> class_names = {};
     std::vector<std::int64_t> category_ids = {};  ///< the file's number of each class, in the same order
     std::vector<DatasetImage> images = {};
+    bool classes_listed = true;  ///< false: class_names are those that labels name; there may be more
 };
 
 /// @brief The mask of an annotation, of the image's size; without pixels where there is none.
@@ -93,7 +94,7 @@ struct Dataset {
     expect(dataset.category_ids.size() == dataset.class_names.size(), "category ids of the data set",
            dataset.class_names.size(), dataset.category_ids.size());
     expect(!names.empty(), "classes to select", lazy_text("at least one of: ", known), "none");
-    Dataset part{.source = dataset.source};
+    Dataset part{.source = dataset.source, .classes_listed = dataset.classes_listed};
     std::map<std::size_t, std::uint32_t> new_index;
     for (const std::string& name : names) {
         const auto found = std::find(dataset.class_names.begin(), dataset.class_names.end(), name);

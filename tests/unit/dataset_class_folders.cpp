@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/files.hpp"
+
+#include "ism/dataset/any_dataset.hpp"
+#include "ism/dataset/read_images.hpp"
+
+using ism::Box;
+using ism::FileError;
+using ism::Rgb;
+using ism::RgbImage;
+using ism::test::error_message;
+using ism::test::TemporaryFolder;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A PNM file of 24 × 18 px: an image that is no PNG.
+void write_pnm(const fs::path& path, int width = 24, int height = 18) {
+    fs::create_directories(path.parent_path());
+    ism::write_file(path, ism::join_text("P5 ", width, " ", height, " 255\n") +
+                              std::string(std::size_t(width * height), 'x'));
+}
+
+void write_mask(const fs::path& path, const Box& box, std::uint8_t figure = 255, int width = 24) {
+    fs::create_directories(path.parent_path());
+    ism::Image<std::uint8_t> mask(width, 18);
+    for (int y = int(box.y); y < int(box.y + box.height); ++y)
+        for (int x = int(box.x); x < int(box.x + box.width); ++x) mask(x, y) = figure;
+    ism::write_png(path, mask);
+}
+
+// A PNG of 24 × 18 px whose pixels are transparent outside the box.
+void write_cut_out(const fs::path& path, const Box& box) {
+    fs::create_directories(path.parent_path());
+    std::vector<std::uint8_t> samples;
+    for (int y = 0; y < 18; ++y)
+        for (int x = 0; x < 24; ++x) {
+            const bool in = x >= box.x && y >= box.y && x < box.x + box.width && y < box.y + box.height;
+            samples.insert(samples.end(), {90, 80, 70, std::uint8_t(in ? 255 : 0)});
+        }
+    ism::write_file(path, ism::detail::stb_png(24, 18, 4, samples.data()));
+}
+
+std::string refused(const fs::path& folder) {
+    return error_message<FileError>([&] { (void)ism::read_any_dataset(folder); });
+}
+
+}  // namespace
+
+TEST_CASE("A folder with one folder a class is a data set, with masks beside the images or in them") {
+    const TemporaryFolder folder;
+    write_pnm(folder / "car/1.pgm");
+    write_mask(folder / "car/1.png", {3, 4, 5, 6}, 1);  // 0 and 1 are a mask as well
+    write_pnm(folder / "car/2.pgm");
+    write_mask(folder / "car/2_mask.png", {1, 2, 20, 10});
+    write_cut_out(folder / "cow/1.png", {7, 2, 8, 9});
+    write_pnm(folder / "cow/2.pgm");
+    write_pnm(folder / "Background/1.pgm");
+    ism::write_file(folder / "readme.txt", std::string("no image"));
+    ism::write_file(folder / "car/.hidden.png", std::string("no image"));
+    ism::write_file(folder / "car/1.ism.png", std::string("drawn by the program"));
+
+    const ism::Dataset dataset = ism::read_any_dataset(folder.path());
+    CHECK(dataset.class_names == std::vector<std::string>{"car", "cow"});
+    CHECK(dataset.category_ids == std::vector<std::int64_t>{1, 2});
+    CHECK_FALSE(dataset.classes_listed);
+    REQUIRE(dataset.images.size() == 5);
+    CHECK(dataset.images[0].objects.empty());
+    const std::vector<Box> boxes = {{3, 4, 5, 6}, {1, 2, 20, 10}, {7, 2, 8, 9}, {0, 0, 24, 18}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const ism::DatasetImage& image = dataset.images[i + 1];
+        CAPTURE(image.file.string());
+        REQUIRE(image.objects.size() == 1);
+        CHECK(image.id == std::int64_t(i) + 2);
+        CHECK(image.objects[0].id == std::int64_t(i) + 1);
+        CHECK(image.objects[0].class_index == (i < 2 ? 0 : 1));
+        CHECK(image.objects[0].box == boxes[i]);
+        const ism::Mask mask = ism::read_mask(image, image.objects[0]);
+        CHECK(mask_area(mask) == (i < 3 ? std::size_t(boxes[i].area()) : 0));
+        CHECK(ism::read_training_image(image).frame.gray.width() == 24);
+    }
+    CHECK(ism::relative_to(dataset.images[1].file, dataset.source.parent_path()) == "car/1.pgm");
+}
+
+TEST_CASE("Images alone have no labels, and a folder with one JSON file is COCO's") {
+    const TemporaryFolder folder;
+    write_pnm(folder / "b.pgm");
+    write_pnm(folder / "a.pgm", 30, 20);
+    const ism::Dataset dataset = ism::read_any_dataset(folder.path());
+    REQUIRE(dataset.images.size() == 2);
+    CHECK(dataset.class_names.empty());
+    CHECK(dataset.images[0].width == 30);
+    ism::write_file(folder / "_annotations.coco.json", std::string(R"({"images":
+        [{"id":7,"file_name":"b.pgm","width":24,"height":18}]})"));
+    const ism::Dataset coco = ism::read_any_dataset(folder.path());
+    REQUIRE(coco.images.size() == 1);
+    CHECK(coco.images[0].id == 7);
+    CHECK(coco.images[0].file == folder / "b.pgm");
+}
+
+TEST_CASE("Folders that make no sense are refused in a line, single images may be left out") {
+    const TemporaryFolder folder;
+    CHECK(refused(folder.path()) ==
+          "folder '" + folder.path().string() + "': expected a data set, got no image");
+    fs::create_directories(folder / "car");
+    CHECK(refused(folder.path()).ends_with("car': expected images of a class, got none"));
+    write_pnm(folder / "car/1.pgm");
+    write_pnm(folder / "0.pgm");
+    CHECK(refused(folder.path())
+              .ends_with("0.pgm': expected images in the folder of their class, got one beside the folders"));
+    fs::remove(folder / "0.pgm");
+    write_pnm(folder / "train/car/1.pgm");
+    CHECK(refused(folder.path())
+              .ends_with("train': expected the images of a class, got a folder of folders; "
+                         "give the folder above those of the classes"));
+    fs::remove_all(folder / "train");
+
+    write_mask(folder / "car/1_mask.png", {1, 1, 3, 3}, 255, 25);
+    CHECK(refused(folder.path()).ends_with("expected 25x18 pixels as its labels say, got 24x18"));
+    write_mask(folder / "car/1_mask.png", {1, 1, 0, 0});
+    CHECK(refused(folder.path()).ends_with("1_mask.png': expected a mask with figure, got one without"));
+    fs::rename(folder / "car/1_mask.png", folder / "car/5_mask.png");
+    CHECK(refused(folder.path()).ends_with("5_mask.png': expected an image beside this mask, got none"));
+    ism::write_file(folder / "car/2.heic", std::string("no image"));
+    ism::write_file(folder / "car/3.jpg", std::string("\xff\xd8\xff, but no image"));
+    write_pnm(folder / "car/9.pgm");
+    ism::Faults faults;
+    const ism::Dataset left = ism::read_any_dataset(folder.path(), {.faults = &faults});
+    REQUIRE(left.images.size() == 2);
+    CHECK(left.images[1].id == 4);  // as it would be without the faults before it
+    REQUIRE(faults.size() == 3);
+    CHECK(faults[0].ends_with("2.heic': expected a PNG, JPEG, BMP or PNM image, got something else"));
+    CHECK(faults[1].ends_with("3.jpg': expected a whole image, got a truncated JPEG"));
+    CHECK(faults[2].ends_with("5_mask.png': expected an image beside this mask, got none"));
+}
