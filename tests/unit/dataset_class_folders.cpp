@@ -49,7 +49,7 @@ void write_cut_out(const fs::path& path, const Box& box) {
     ism::write_file(path, ism::detail::stb_png(24, 18, 4, samples.data()));
 }
 
-std::string refused(const fs::path& folder) {
+std::string folder_error(const fs::path& folder) {
     return error_message<FileError>([&] { (void)ism::read_any_dataset(folder); });
 }
 
@@ -108,27 +108,27 @@ TEST_CASE("Images alone have no labels, and a folder with one JSON file is COCO'
 
 TEST_CASE("Folders that make no sense are refused in a line, single images may be left out") {
     const TemporaryFolder folder;
-    CHECK(refused(folder.path()) ==
+    CHECK(folder_error(folder.path()) ==
           "folder '" + folder.path().string() + "': expected a data set, got no image");
     fs::create_directories(folder / "car");
-    CHECK(refused(folder.path()).ends_with("car': expected images of a class, got none"));
+    CHECK(folder_error(folder.path()).ends_with("car': expected images of a class, got none"));
     write_pnm(folder / "car/1.pgm");
     write_pnm(folder / "0.pgm");
-    CHECK(refused(folder.path())
+    CHECK(folder_error(folder.path())
               .ends_with("0.pgm': expected images in the folder of their class, got one beside the folders"));
     fs::remove(folder / "0.pgm");
     write_pnm(folder / "train/car/1.pgm");
-    CHECK(refused(folder.path())
+    CHECK(folder_error(folder.path())
               .ends_with("train': expected the images of a class, got a folder of folders; "
                          "give the folder above those of the classes"));
     fs::remove_all(folder / "train");
 
     write_mask(folder / "car/1_mask.png", {1, 1, 3, 3}, 255, 25);
-    CHECK(refused(folder.path()).ends_with("expected 25x18 pixels as its labels say, got 24x18"));
+    CHECK(folder_error(folder.path()).ends_with("expected 25x18 pixels as its labels say, got 24x18"));
     write_mask(folder / "car/1_mask.png", {1, 1, 0, 0});
-    CHECK(refused(folder.path()).ends_with("1_mask.png': expected a mask with figure, got one without"));
+    CHECK(folder_error(folder.path()).ends_with("1_mask.png': expected a mask with figure, got one without"));
     fs::rename(folder / "car/1_mask.png", folder / "car/5_mask.png");
-    CHECK(refused(folder.path()).ends_with("5_mask.png': expected an image beside this mask, got none"));
+    CHECK(folder_error(folder.path()).ends_with("5_mask.png': expected an image beside this mask, got none"));
     ism::write_file(folder / "car/2.heic", std::string("no image"));
     ism::write_file(folder / "car/3.jpg", std::string("\xff\xd8\xff, but no image"));
     write_pnm(folder / "car/9.pgm");

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "ism/dataset/image_files.hpp"
+#include "ism/dataset/mask_files.hpp"
 
 namespace ism {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 /// @file
-/// @brief Finding the images of a data set, and its masks that are images. By stb_image: see
+/// @brief Finding and numbering the images of a data set that is no COCO's. By stb_image: see
 /// ism/io/images.hpp for what a program needs.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -20,7 +21,6 @@
 
 #include "ism/dataset/dataset.hpp"
 #include "ism/dataset/faults.hpp"
-#include "ism/dataset/rle.hpp"
 #include "ism/io/images.hpp"
 #include "ism/io/paths.hpp"
 
@@ -122,45 +122,17 @@ inline void number(Dataset& dataset) {
         for (DatasetAnnotation& object : image.objects) object.id = ++id;
 }
 
-/// @brief A mask in a file of its own. Figure is what is not transparent; in a file without transparent
-/// pixels it is what is brighter, in any channel, than half of the brightest.
-/// @throws FileError where it cannot be read, or nothing in it is figure.
-[[nodiscard]] inline Mask read_mask_file(const std::filesystem::path& path) {
-    const ImageFile file = open_image(path);
-    const auto samples = decode(file, 4, stbi_load_from_memory);
-    Mask mask(file.width, file.height);
-    std::uint8_t brightest = 0, least_alpha = 255;
-    const auto light = [&](std::size_t i) {
-        return std::max({samples[4 * i], samples[4 * i + 1], samples[4 * i + 2]});
-    };
-    const std::size_t count = mask.pixels().size();
-    for (std::size_t i = 0; i < count; ++i) {
-        brightest = std::max(brightest, light(i));
-        least_alpha = std::min<std::uint8_t>(least_alpha, samples[4 * i + 3]);
+/// @brief Classes in the order of their names, in place of that in which they came; then number().
+inline void name_classes(Dataset& dataset, const std::map<std::string, std::uint32_t>& classes) {
+    dataset.classes_listed = false;
+    std::vector<std::uint32_t> place_of(classes.size());
+    for (const auto& [name, came] : classes) {
+        place_of[came] = std::uint32_t(dataset.class_names.size());
+        dataset.class_names.push_back(name);
     }
-    const bool transparent = least_alpha < 128;
-    for (std::size_t i = 0; i < count; ++i)
-        mask.pixels()[i] = transparent ? samples[4 * i + 3] >= 128 : 2 * light(i) > brightest;
-    if (mask_area(mask) == 0) file.refuse("a mask with figure", "one without");
-    return turned(std::move(mask), file.orientation);
-}
-
-/// @brief Whether an image has transparent pixels: they are then the ground of a mask.
-[[nodiscard]] inline bool has_transparent_pixels(const std::filesystem::path& path) {
-    if (lower(path.extension().string()) != ".png") return false;
-    const ImageFile file = open_image(path);
-    if (file.channels != 2 && file.channels != 4) return false;
-    const auto samples = decode(file, 4, stbi_load_from_memory);
-    const std::size_t count = std::size_t(file.width) * std::size_t(file.height);
-    for (std::size_t i = 0; i < count; ++i)
-        if (samples[4 * i + 3] < 128) return true;
-    return false;
-}
-
-/// @brief Adds an object whose mask is known; its box is that of the mask.
-inline void add_masked(DatasetImage& image, std::uint32_t class_index, const Mask& mask) {
-    image.objects.push_back(
-        {.class_index = class_index, .box = mask_box(mask), .segmentation = compress_mask(mask)});
+    for (DatasetImage& image : dataset.images)
+        for (DatasetAnnotation& object : image.objects) object.class_index = place_of[object.class_index];
+    number(dataset);
 }
 
 }  // namespace detail

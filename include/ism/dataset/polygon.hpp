@@ -17,6 +17,18 @@ namespace ism {
 /// @brief The corners of an outline in the coordinates of boxes: pixel (x, y) covers x … x + 1 and y … y + 1.
 using Polygon = std::vector<Point2>;
 
+/// @brief The box around the corners of an outline.
+/// @throws Error where there is none.
+[[nodiscard]] inline Box box_around(const Polygon& corners) {
+    expect(!corners.empty(), "outline", "corners", "none");
+    Point2 least = corners[0], most = corners[0];
+    for (const Point2& corner : corners) {
+        least = {std::min(least.x, corner.x), std::min(least.y, corner.y)};
+        most = {std::max(most.x, corner.x), std::max(most.y, corner.y)};
+    }
+    return {least.x, least.y, most.x - least.x, most.y - least.y};
+}
+
 /// @brief The pixels whose middle lies in one of the polygons (each by the even-odd rule; where polygons
 /// overlap is figure). What reaches outside is cut off.
 /// @throws Error where a polygon has less than 3 corners or one that is not finite or beyond 1e9, or the size
