@@ -3,13 +3,13 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 
 #include "ism/dataset/any_dataset.hpp"
 
 namespace program {
 
-/// The one way to a data set, whatever its form: COCO's JSON, folders of classes, or images alone.
+/// The one way to a data set, whatever its form: COCO's JSON, Pascal VOC, YOLO, labelme,
+/// folders of classes, or images alone.
 /// Labels and images that make no sense are named on stderr, and left out with `skip_bad`.
 /// @param part  where a data set has several
 /// @throws ism::Error where it cannot be read, or something makes no sense and `skip_bad` is not given.

@@ -12,6 +12,7 @@
 #include "input.hpp"
 #include "mistakes.hpp"
 #include "output.hpp"
+#include "pictures.hpp"
 #include "progress.hpp"
 #include "spaces.hpp"
 #include "tell.hpp"
@@ -146,9 +147,9 @@ ReportChoice choose_for_report(const ism::Dataset& dataset,
 
 /// Reads a picture of the command line, and tells its data set how large it is.
 ism::Frame picture_frame(ism::DatasetImage& image) {
-    ism::Picture picture = ism::read_picture(image.file);
+    ism::Picture picture = read_picture(image.file);
     image.width = picture.gray.width(), image.height = picture.gray.height();
-    if (!image.depth_file.empty()) return ism::read_frame(image);
+    if (!image.depth_file.empty()) return ism::read_frame(image, read_picture);
     ism::Frame frame{
         .gray = std::move(picture.gray), .color = std::move(picture.color), .camera = image.camera};
     ism::at_place(ism::file_text(image.file), [&] { ism::check(frame); });
@@ -243,7 +244,7 @@ void run_detect(const DetectCommand& command) {
             throw ism::FileError(ism::file_text(image.file) + ": expected a depth image beside it, got none");
         if (command.search.space == metric_space && !image.camera)
             throw ism::FileError(ism::file_text(image.file) + ": expected its camera, got none");
-        ism::Frame frame = pictures ? picture_frame(image) : ism::read_frame(image);
+        ism::Frame frame = pictures ? picture_frame(image) : ism::read_frame(image, read_picture);
         if (!frame.depth_m.empty())
             doubts.add(image.depth_file, ism::depth_scale_doubt(frame.depth_m, image.depth_scale));
         if (pictures && list.images().size() == 1) only = std::move(frame);
@@ -301,7 +302,7 @@ void run_detect(const DetectCommand& command) {
         };
         pool.for_each(count, [&](std::size_t i, unsigned worker) {
             const ism::DatasetImage& image = dataset.images[i];
-            const ism::Frame own = only ? ism::Frame() : ism::read_frame(image);
+            const ism::Frame own = only ? ism::Frame() : ism::read_frame(image, read_picture);
             const ism::Frame& frame = only ? *only : own;
             if (space_of(frame, command.search.space, auto_metric) == metric_space) ++in_metres;
             const ism::Detections found = find(frame, worker, overlays.has_value());
@@ -322,7 +323,7 @@ void run_detect(const DetectCommand& command) {
         sections.resize(choice.images.size());
         pool.for_each(sections.size(), [&](std::size_t k, unsigned worker) {
             const ism::DatasetImage& image = dataset.images[choice.images[k]];
-            const ism::Frame own = only ? ism::Frame() : ism::read_frame(image);
+            const ism::Frame own = only ? ism::Frame() : ism::read_frame(image, read_picture);
             const ism::Frame& frame = only ? *only : own;
             const ism::Detections found = find(frame, worker, true);
             sections[k] = ism::detection_section(

@@ -35,7 +35,10 @@ void add_skip_bad(CLI::App& app, bool& skip_bad) {
                  "name images and labels that cannot be used, and go on without them");
 }
 
-constexpr const char* data_text = "labelled images: COCO JSON, or a folder with one folder of images a class";
+constexpr const char* data_text =
+    "labelled images: JSON of COCO or labelme, a folder or file of Pascal VOC or YOLO, or a folder with one "
+    "folder of "
+    "images a class";
 
 void add_train(CLI::App& parent, program::TrainCommand& command) {
     CLI::App& app = *parent.add_subcommand("train", "learn a model from labelled images");

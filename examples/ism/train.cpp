@@ -8,6 +8,7 @@
 #include "extractors.hpp"
 #include "input.hpp"
 #include "learning.hpp"
+#include "pictures.hpp"
 #include "progress.hpp"
 
 #include "ism/dataset/read_images.hpp"
@@ -49,7 +50,7 @@ ism::WordWorth worth_of(const std::string& measure) {
 ism::TrainingSet named_images(const ism::Dataset& dataset) {
     ism::TrainingSet set = ism::training_set(dataset);
     set.image = [&dataset](std::size_t i) {
-        ism::TrainingImage image = ism::read_training_image(dataset.images[i]);
+        ism::TrainingImage image = ism::read_training_image(dataset.images[i], read_picture);
         image.name = short_name(dataset, dataset.images[i]);
         return image;
     };
@@ -106,7 +107,7 @@ void run_train(const TrainCommand& command) {
     Doubts doubts;
     const std::size_t skipped =
         check_images(dataset, options.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
-            ism::TrainingImage training = ism::read_training_image(image);
+            ism::TrainingImage training = ism::read_training_image(image, read_picture);
             training.name = ism::file_text(image.file);
             ism::check(training, dataset.class_names.size());
             if (!image.depth_file.empty())
