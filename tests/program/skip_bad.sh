@@ -41,3 +41,13 @@ says '"image_id":2,' found
 # An image without depth among others with it.
 sed '0,/"depth_file_name":"[^"]*",/s///' toys/test.json >toys/part.json
 refused "expected a depth image beside it" "$ism" detect --model whole --data toys/part.json -o out --space ji3sm2
+
+# Of labels that make no sense, a box without area and an outline without a pixel, these alone are left out.
+sed -E '0,/"bbox":\[[^]]*\]/s//"bbox":[5,5,0,9]/; /"image_id":2,/s/"segmentation":\{[^}]*\}/"segmentation":[[1,1,1,2,1,3]]/' \
+    toys/train.json >toys/labels.json
+refused "2 labels and images cannot be used; nothing was written" "$ism" train --data toys/labels.json -o out
+says "bbox: expected a width and height above 0, got 0x9" stderr.txt
+says "mask: expected at least one figure pixel, got none" stderr.txt
+"$ism" train --data toys/labels.json -o fewer --skip-bad --no-templates --no-depth >train.txt 2>/dev/null
+says "images       24" train.txt
+says "objects      22" train.txt
