@@ -104,6 +104,16 @@ TEST_CASE("Images alone have no labels, and a folder with one JSON file is COCO'
     REQUIRE(coco.images.size() == 1);
     CHECK(coco.images[0].id == 7);
     CHECK(coco.images[0].file == folder / "b.pgm");
+
+    ism::write_file(folder / "found.json", std::string("[]"));  // results are no labels
+    CHECK(ism::read_any_dataset(folder.path()).images.size() == 1);
+    fs::create_directories(folder / "annotations");
+    fs::rename(folder / "_annotations.coco.json", folder / "annotations/train.json");
+    CHECK(ism::read_any_dataset(folder.path()).images.at(0).file == folder / "b.pgm");
+    fs::copy_file(folder / "annotations/train.json", folder / "annotations/val.json");
+    CHECK(folder_error(folder.path())
+              .ends_with("annotations': expected one JSON file of COCO, or those of labelme, got 2 such as "
+                         "'train.json': name one"));
 }
 
 TEST_CASE("Folders that make no sense are refused in a line, single images may be left out") {

@@ -439,3 +439,18 @@ TEST_CASE("With a list of faults a bad annotation alone is left out") {
     for (const std::string& fault : faults) CHECK(fault.find("a.json") != std::string::npos);
     CHECK(error_message<FileError>([&] { (void)ism::read_dataset(folder / "a.json"); }) == faults[0]);
 }
+
+TEST_CASE("File names count from the JSON's folder, or from where the first image is") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "annotations");
+    ism::write_file(folder / "annotations/a.json", "{" + categories + R"(,"images":[)" + image_1 + "]}");
+    const auto file = [&] { return ism::read_dataset(folder / "annotations/a.json").images.at(0).file; };
+    CHECK(file() == folder / "annotations/images/a.png");  // nowhere
+    for (const char* name :
+         {"images/images/a.png", "annotations/images/images/a.png", "annotations/images/a.png"}) {
+        CAPTURE(name);
+        std::filesystem::create_directories((folder / name).parent_path());
+        ism::write_file(folder / name, std::string("x"));
+        CHECK(file() == folder / name);
+    }
+}

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -94,6 +95,22 @@ inline void read_outline(const Json& record, const DatasetImage& image, const st
            std::none_of(labels.begin(), labels.end(), has_it);
 }
 
+/// @brief The folder from which file names count: the JSON's own; where the first image is not there, but in
+/// images beside it or beside its folder, or in the folder above, it is that.
+[[nodiscard]] inline std::filesystem::path image_folder(const Json& images,
+                                                        const std::filesystem::path& own) {
+    if (images.empty() || !images[0].is_object() || !images[0].contains("file_name") ||
+        !images[0]["file_name"].is_string())
+        return own;
+    const std::string& name = images[0]["file_name"].get_ref<const std::string&>();
+    std::error_code ignored;
+    if (name.empty() || name.find('\0') != std::string::npos) return own;
+    for (const char* folder : {"", "images", "../images", ".."})
+        if (std::filesystem::is_regular_file(own / folder / path_from_utf8(name), ignored))
+            return folder[0] == '\0' ? own : (own / folder).lexically_normal();
+    return own;
+}
+
 /// @brief The images and classes that annotations refer to by number.
 struct CocoNumbers {
     std::map<std::int64_t, std::size_t> image_of = {};
@@ -156,8 +173,10 @@ inline void read_annotation(const Json& record, const std::string& file, CocoNum
         dataset.class_names.push_back(name);
         dataset.category_ids.push_back(id);
     }
-    for (const Json& record : array_member(root, "images", file)) {
-        dataset.images.push_back(image_from_json(record, path.parent_path(), file + ", image"));
+    const Json& images = array_member(root, "images", file);
+    const std::filesystem::path folder = image_folder(images, path.parent_path());
+    for (const Json& record : images) {
+        dataset.images.push_back(image_from_json(record, folder, file + ", image"));
         const std::int64_t id = dataset.images.back().id;
         if (!numbers.image_of.emplace(id, numbers.image_of.size()).second)
             refuse_json(join_text(file, ", image with id ", id), "id", "each id once", "it twice");
@@ -172,9 +191,10 @@ inline void read_annotation(const Json& record, const std::string& file, CocoNum
 /// @brief Reads a data set in COCO's JSON: images, categories, annotations with bbox, segmentation (run
 /// lengths as text or array, or polygons), iscrowd, and instance (a text or number that names the thing). Per
 /// image also depth_file_name, depth_scale (metres per unit) and camera {fx, fy, cx, cy}, per annotation
-/// position_m [x, y, z]. File names count from the JSON's folder. A missing bbox is taken from the
-/// segmentation. Without annotations and categories images have no labels. An empty category 0 that others
-/// name as their supercategory is no class. Images are not opened yet.
+/// position_m [x, y, z]. File names count from the JSON's folder, or where the first is not there from
+/// images/, ../images/ or ../. A missing bbox is taken from the segmentation. Without annotations and
+/// categories images have no labels. An empty category 0 that others name as their supercategory is no class.
+/// Images are not opened yet.
 /// @param faults  where given, annotations that make no sense are left out, and told there
 /// @throws FileError, naming the file, the image and the annotation, where the file cannot be read, is no
 /// JSON (with line and column), lacks a key, repeats an id, names an unknown image or category, or a box
