@@ -46,6 +46,11 @@ struct TrainCommand {
     std::string program = "ism";           ///< as it was called, for the command to type next
 };
 
+/// How a page keeps its pictures.
+struct PageOptions {
+    bool link = false;  ///< pictures are files beside the page, sharper and of any size
+};
+
 /// What is less probable is not told where templates judge: a place without objects shall look empty.
 constexpr double default_min_score = 0.3;
 
@@ -70,6 +75,7 @@ struct DetectCommand {
     std::filesystem::path results = {}, json = {};           ///< empty = none, "-" = standard output
     bool show = false;                                       ///< write an overlay beside each image
     std::filesystem::path overlay_folder = {}, report = {};  ///< empty = none
+    PageOptions page = {};
     unsigned threads = 0;
     bool skip_bad = false;
 };

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "commands.hpp"
+#include "detect_page.hpp"
 #include "extractors.hpp"
 #include "input.hpp"
 #include "learning.hpp"
@@ -130,28 +131,22 @@ ism::Plot plot_of(std::span<const SpaceOutcome> outcomes) {
     return plot;
 }
 
-/// One training picture of each class, side by side.
+/// One training picture of each class.
 ism::ReportSection lesson_section(const ism::Dataset& train) {
-    std::vector<ism::RgbImage> pictures;
-    int width = 0, height = 0;
+    ism::ReportGallery gallery;
     for (std::size_t c = 0; c < train.class_names.size(); ++c) {
         const auto image =
             std::find_if(train.images.begin(), train.images.end(), [&](const ism::DatasetImage& i) {
                 return !i.objects.empty() && i.objects.front().class_index == c;
             });
         if (image == train.images.end()) continue;
-        pictures.push_back(ism::read_rgb(image->file));
-        width += pictures.back().width(), height = std::max(height, pictures.back().height());
-    }
-    ism::RgbImage row(width, height, ism::white);
-    int left = 0;
-    for (const ism::RgbImage& picture : pictures) {
-        for (int y = 0; y < picture.height(); ++y)
-            std::copy(picture.row(y).begin(), picture.row(y).end(), row.row(y).begin() + left);
-        left += picture.width();
+        gallery.figures.push_back(ism::picture_figure(
+            ism::report_picture(ism::read_rgb(image->file), {.side_px = 320, .most_bytes = 16000}),
+            train.class_names[c]));
+        gallery.figures.back().width_px = 240;
     }
     ism::ReportSection section{.title = "Learnt from pictures like these"};
-    section.parts.push_back(ism::ReportImage{list_text(train.class_names), ism::encode_png(row)});
+    section.parts.push_back(std::move(gallery));
     return section;
 }
 
@@ -195,7 +190,7 @@ void run_demo(const DemoCommand& command) {
     const std::size_t count = set.test.images.size();
     const OverlayFiles overlays(folder / "overlays", set.test);
     std::vector<SceneOutcome> scenes(count);
-    std::vector<ism::ReportSection> sections(std::min(count, report_scenes));
+    std::vector<std::vector<ism::Result>> told(count);  // what the page shows
     ism::ThreadPool pool(command.threads);
     const std::vector<ism::AnyExtractor> extractors = extractors_of(model);
     std::deque<ism::ThreadPool> single;  // one a worker
@@ -218,12 +213,20 @@ void run_demo(const DemoCommand& command) {
             if (space_names[s] != shown_space) continue;
             const ism::RgbImage picture = ism::read_rgb(image.file);
             overlays.write(i, picture, found, shapes.class_names);
-            if (i < sections.size())
-                sections[i] =
-                    ism::detection_section(ism::join_text("Scene ", i + 1, ", found in space ", shown_space),
-                                           picture, found, shapes.class_names, {.rows = report_rows});
+            search.min_score.reset();
+            told[i] = ism::to_results(find_objects(scene, search), image, shapes);
         }
         progress.step("detecting in five vote spaces", count);
+    });
+
+    DetectPage page(set.test, told, shapes.class_names, report_scenes);
+    pool.for_each(page.images().size(), [&](std::size_t k, unsigned worker) {
+        const ism::DatasetImage& image = set.test.images[page.images()[k]];
+        const ism::Frame frame = ism::read_frame(image);
+        SearchOptions search;
+        search.space = shown_space, search.explain = true;
+        page.add(k, ism::read_rgb(image.file), find_objects(matchers[worker].scene(frame), search),
+                 report_rows, {});
     });
 
     std::vector<SpaceOutcome> outcomes;
@@ -242,28 +245,26 @@ void run_demo(const DemoCommand& command) {
     const std::string what = "synthetic: toys and tables were rendered, nothing was photographed";
     const std::string plot = ism::to_svg(plot_of(outcomes));
     const auto rows = table_of(outcomes);
-    ism::Report report{.title = "ism demo on synthetic toy scenes"};
-    report.summary = {
-        {"pictures", what},
-        {"learnt from", ism::join_text(set.train.images.size(), " pictures of single toys, ",
-                                       shapes.objects.size(), " toys")},
-        {"tested on", ism::join_text(count, " cluttered tables with other toys of the same kinds")},
-        {"classes", list_text(shapes.class_names)},
-        {"features", ism::join_text(default_detector, ", ", default_descriptor)},
-        {"model",
-         ism::join_text(model.words(), " words, ", shapes.occurrences.values().size(), " occurrences")}};
-    ism::ReportSection figures{.title = "How well the toys were found"};
+    ism::Report report = page.report(
+        "ism demo on synthetic toy scenes",
+        {{"pictures", what},
+         {"learnt from", ism::join_text(set.train.images.size(), " pictures of single toys, ",
+                                        shapes.objects.size(), " toys")},
+         {"tested on", ism::join_text(count, " cluttered tables with other toys of the same kinds")},
+         {"classes", list_text(shapes.class_names)},
+         {"features", ism::join_text(default_detector, ", ", default_descriptor)},
+         {"model",
+          ism::join_text(model.words(), " words, ", shapes.occurrences.values().size(), " occurrences")}});
+    ism::ReportSection figures{.title = "Five vote spaces"};
     figures.parts.push_back(ism::ReportTable{
         .caption = "Means over the classes; a box is right from an IoU of 0.5. Position: from the middle of "
                    "the toy. Time: one thread.",
         .header = rows.front(),
         .rows = {rows.begin() + 1, rows.end()}});
     figures.parts.push_back(ism::ReportPlot{plot});
-    report.sections.push_back(std::move(figures));
-    report.sections.push_back(lesson_section(set.train));
-    std::move(sections.begin(), sections.end(), std::back_inserter(report.sections));
+    report.sections.insert(report.sections.begin(), {std::move(figures), lesson_section(set.train)});
     ism::write_file(folder / "pr.svg", plot);
-    ism::write_file(folder / "report.html", ism::to_html(report));
+    write_page(folder / "report.html", report, {});
 
     progress.clear();
     std::printf("Toy scenes (%s).\n", what.c_str());

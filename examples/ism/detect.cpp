@@ -7,10 +7,10 @@
 
 #include "commands.hpp"
 #include "data.hpp"
+#include "detect_page.hpp"
 #include "extractors.hpp"
 #include "image_list.hpp"
 #include "input.hpp"
-#include "mistakes.hpp"
 #include "output.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"
@@ -25,7 +25,7 @@
 #include "ism/detect/frame_matcher.hpp"
 #include "ism/detect/metric.hpp"
 #include "ism/model_file/model_file.hpp"
-#include "ism/show/report_detections.hpp"
+#include "ism/show/overlay.hpp"
 
 namespace program {
 
@@ -117,32 +117,6 @@ std::string spaces_text(std::size_t in_metres, std::size_t images, bool may_be_m
     if (in_metres > 0)
         return ism::join_text("metric; jism for ", images - in_metres, " images without depth and camera");
     return may_be_metric ? "jism, for want of depth and camera: no positions, and less is found" : "jism";
-}
-
-/// Images for the report, and what is remarked beside their names.
-struct ReportChoice {
-    std::vector<std::size_t> images = {};
-    std::vector<std::string> remarks = {};
-    bool by_mistakes = false;
-};
-
-/// Of a labelled data set the images with the worst mistakes, worst first; else the first ones.
-ReportChoice choose_for_report(const ism::Dataset& dataset,
-                               const std::vector<std::vector<ism::Result>>& results, std::size_t count) {
-    ReportChoice choice;
-    for (std::size_t i = 0; i < results.size(); ++i) choice.images.push_back(i);
-    choice.by_mistakes = count > 0 && std::any_of(dataset.images.begin(), dataset.images.end(),
-                                                  [](const auto& image) { return !image.objects.empty(); });
-    std::vector<Mistakes> mistakes(results.size());
-    if (choice.by_mistakes) mistakes = find_mistakes(dataset, results);
-    std::stable_sort(choice.images.begin(), choice.images.end(),
-                     [&](std::size_t a, std::size_t b) { return mistakes[a].weight > mistakes[b].weight; });
-    choice.images.resize(std::min(count, choice.images.size()));
-    for (const std::size_t i : choice.images) {
-        const std::string text = mistakes[i].text();
-        choice.remarks.push_back(text.empty() ? "" : ": " + text);
-    }
-    return choice;
 }
 
 /// Reads a picture of the command line, and tells its data set how large it is.
@@ -271,10 +245,9 @@ void run_detect(const DetectCommand& command) {
     const bool auto_metric = metric_allowed(model, command.search);
     std::vector<std::vector<ism::Result>> results(count);
     std::vector<std::optional<ism::Result>> next(count);
-    std::vector<ism::ReportSection> sections;
+    std::optional<DetectPage> page;
     double search_seconds = 0;
     std::atomic<std::size_t> in_metres = 0;
-    bool by_mistakes = false;
     {
         const Stopwatch search_watch;
         ProgressLine progress;
@@ -317,29 +290,34 @@ void run_detect(const DetectCommand& command) {
         search_seconds = search_watch.seconds();
 
         // The images that the report shows are looked at once more, to be explained.
-        const ReportChoice choice =
-            choose_for_report(dataset, results, command.report.empty() ? 0 : report_images);
-        by_mistakes = choice.by_mistakes;
-        sections.resize(choice.images.size());
-        pool.for_each(sections.size(), [&](std::size_t k, unsigned worker) {
-            const ism::DatasetImage& image = dataset.images[choice.images[k]];
-            const ism::Frame own = only ? ism::Frame() : ism::read_frame(image, read_picture);
-            const ism::Frame& frame = only ? *only : own;
-            const ism::Detections found = find(frame, worker, true);
-            sections[k] = ism::detection_section(
-                name_of(image) + choice.remarks[k], frame.color, found, shapes.class_names,
-                {.rows = report_rows,
-                 .objects = model.rgbd.empty() ? std::span<const ism::TrainingObject>()
-                                               : model.rgbd[0].shapes.objects});
-        });
+        if (!command.report.empty()) {
+            page.emplace(dataset, results, shapes.class_names, report_images);
+            pool.for_each(page->images().size(), [&](std::size_t k, unsigned worker) {
+                const ism::DatasetImage& image = dataset.images[page->images()[k]];
+                const ism::Frame own = only ? ism::Frame() : ism::read_frame(image, read_picture);
+                const ism::Frame& frame = only ? *only : own;
+                page->add(k, frame.color, find(frame, worker, true), report_rows, command.page,
+                          model.rgbd.empty() ? std::span<const ism::TrainingObject>()
+                                             : model.rgbd[0].shapes.objects);
+            });
+        }
     }
 
     std::vector<ism::Result> all;
     std::vector<FoundInImage> found;
     std::string json;
+    for (const auto& part : results) all.insert(all.end(), part.begin(), part.end());
+    const std::string space = command.search.space == auto_space ? spaces_text(in_metres, count, auto_metric)
+                                                                 : command.search.space;
+    if (page)
+        write_page(command.report,
+                   page->report("Detections", {{"model", command.model.filename().string()},
+                                               {"vote space", space},
+                                               {"images", std::to_string(count)},
+                                               {"detections", std::to_string(all.size())}}),
+                   command.page);
     for (std::size_t i = 0; i < count; ++i) {
         const ism::DatasetImage& image = dataset.images[i];
-        all.insert(all.end(), results[i].begin(), results[i].end());
         found.push_back({.name = name_of(image),
                          .width = image.width,
                          .height = image.height,
@@ -347,22 +325,6 @@ void run_detect(const DetectCommand& command) {
                          .next_best = std::move(next[i])});
         if (!pictures) found.back().image_id = image.id;
         if (!command.json.empty()) json += json_line(found.back());
-    }
-    if (!command.report.empty()) {
-        ism::Report report{.title = "Detections"};
-        report.summary = {
-            {"model", command.model.filename().string()},
-            {"classes", list_text(shapes.class_names)},
-            {"vote space", command.search.space == auto_space ? spaces_text(in_metres, count, auto_metric)
-                                                              : command.search.space},
-            {"images", std::to_string(count)},
-            {"detections", std::to_string(all.size())}};
-        if (sections.size() < count)
-            report.summary.emplace_back(
-                "shown here", ism::join_text("the ", by_mistakes ? "" : "first ", sections.size(), " images",
-                                             by_mistakes ? " with the worst mistakes" : ""));
-        report.sections = std::move(sections);
-        ism::write_file(command.report, ism::to_html(report));
     }
     if (!command.results.empty())
         write_output(command.results, ism::results_text(all, ism::file_text(command.results)));
@@ -372,8 +334,6 @@ void run_detect(const DetectCommand& command) {
         pictures || (command.results.empty() && command.json.empty() && command.report.empty() && !overlays);
     if (asked && !taken) tell_objects(found);
     if (asked) tell_nothing_found(found);
-    const std::string space = command.search.space == auto_space ? spaces_text(in_metres, count, auto_metric)
-                                                                 : command.search.space;
     const double ms = 1000 * search_seconds / double(count);
     const unsigned threads = ism::thread_count(command.threads);
     if (pictures) {

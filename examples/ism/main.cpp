@@ -40,6 +40,15 @@ constexpr const char* data_text =
     "folder of "
     "images a class";
 
+void add_report_images(CLI::App& app, program::PageOptions& page) {
+    app.add_option_function<std::string>(
+           "--report-images", [&page](const std::string& kind) { page.link = kind == "link"; },
+           "embed: the pictures are in the page, which needs no other file; link: they are files in a folder "
+           "beside it, sharper")
+        ->check(CLI::IsMember({"embed", "link"}))
+        ->default_str("embed");
+}
+
 void add_train(CLI::App& parent, program::TrainCommand& command) {
     CLI::App& app = *parent.add_subcommand("train", "learn a model from labelled images");
     app.add_option("--data", command.data, data_text)->required();
@@ -193,6 +202,7 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
         ->capture_default_str();
     app.add_option("--overlay", command.overlay_folder, "folder for pictures of what was found and why");
     app.add_option("--report", command.report, "HTML page to write");
+    add_report_images(app, command.page);
     add_threads(app, command.threads);
     add_skip_bad(app, command.skip_bad);
     app.callback([&command, data, images] {

@@ -22,7 +22,8 @@ std::string Mistakes::text() const {
 
 std::vector<Mistakes> find_mistakes(const ism::Dataset& dataset,
                                     std::span<const std::vector<ism::Result>> of_image) {
-    const std::vector<ism::TruthObject> truth = ism::detail::truth_of(dataset).objects;
+    const ism::detail::DatasetTruth labels = ism::detail::truth_of(dataset);
+    const std::vector<ism::TruthObject>& truth = labels.objects;
     std::vector<ism::Result> results;
     for (const auto& own : of_image) results.insert(results.end(), own.begin(), own.end());
     const std::vector<ism::FoundObject> found = ism::detail::found_in(dataset, results);
@@ -31,8 +32,9 @@ std::vector<Mistakes> find_mistakes(const ism::Dataset& dataset,
     std::vector<bool> seen(truth.size(), false);
     for (std::size_t f = 0; f < found.size(); ++f) {
         if (judgements[f].verdict == ism::Verdict::true_positive) seen[judgements[f].truth] = true;
-        if (judgements[f].verdict != ism::Verdict::false_positive) continue;
         Mistakes& here = mistakes[found[f].image];
+        here.wrong_results.push_back(judgements[f].verdict == ism::Verdict::false_positive);
+        if (!here.wrong_results.back()) continue;
         std::string text = dataset.class_names[found[f].class_index];
         if (!std::isnan(results[f].probability))
             text += ism::join_text(" ", std::lround(100 * results[f].probability), " %");
@@ -41,6 +43,7 @@ std::vector<Mistakes> find_mistakes(const ism::Dataset& dataset,
     }
     for (std::size_t t = 0; t < truth.size(); ++t) {
         if (seen[t] || truth[t].ignore) continue;
+        mistakes[truth[t].image].missed_objects.push_back(labels.where[t].second);
         mistakes[truth[t].image].missed.push_back(dataset.class_names[truth[t].class_index]);
         mistakes[truth[t].image].weight += 1;
     }

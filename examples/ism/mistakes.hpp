@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ namespace program {
 /// What is wrong with what was told of an image, by IoU .5.
 struct Mistakes {
     std::vector<std::string> missed = {}, wrong = {};  ///< classes, and of wrong detections how probable
+    std::vector<std::size_t> missed_objects = {};      ///< the same as indices into the image's objects
+    std::vector<bool> wrong_results = {};              ///< of each result
     double weight = 0;  ///< 1 for each object missed, and the probabilities of what is wrong
 
     /// "missed: cow; wrong: horse 62 %", or nothing.

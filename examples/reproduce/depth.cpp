@@ -197,9 +197,11 @@ std::vector<ism::ReportSection> explained(const DepthModels& models, std::span<c
             std::erase_if(found.objects, [&](const ism::Detection& d) {
                 return d.score < 0.55 * found.objects.front().score;
             });
-            sections.push_back(ism::detection_section(
-                ism::join_text("Scene ", i + 1, ", ", way_names[way], ", T_ratio = .55"),
-                shots[i].frame.color, found, models.words.shapes.class_names, {.rows = 1}));
+            sections.push_back(
+                ism::detection_pages(ism::join_text("Scene ", i + 1, ", ", way_names[way], ", T_ratio = .55"),
+                                     shots[i].frame.color, found, models.words.shapes.class_names,
+                                     {.rows = 1, .picture = {.side_px = 640, .most_bytes = 40000}})
+                    .section);
         }
     return sections;
 }
@@ -313,7 +315,8 @@ ism::ReportSection between_experiment(const Settings& settings, const CarPart& p
                         "apart: s·d is the size of "
                         "the car, the same for both at any distance."});
     if (!shots.empty())
-        section.parts.push_back(ism::ReportImage{"one of the scenes", ism::encode_png(shots[0].frame.color)});
+        section.parts.push_back(
+            ism::picture_figure(ism::report_picture(shots[0].frame.color), "one of the scenes"));
     add_table(section, std::move(table));
     return section;
 }

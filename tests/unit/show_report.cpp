@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +13,7 @@
 
 #include "ism/evaluate/confusion_plot.hpp"
 #include "ism/evaluate/plot.hpp"
+#include "ism/show/mask_path.hpp"
 #include "ism/show/report.hpp"
 #include "ism/show/report_detections.hpp"
 #include "ism/show/svg.hpp"
@@ -45,7 +48,8 @@ std::string markup_fault(std::string_view page) {
         std::size_t length = tag[0] == '/' ? 1 : 0;
         while (length < tag.size() && std::isalnum(static_cast<unsigned char>(tag[length])) != 0) ++length;
         const std::string name(tag.substr(0, length));
-        if (tag[0] == '!' || name == "meta" || name == "img" || tag.back() == '/') continue;
+        if (tag[0] == '!' || name == "meta" || name == "link" || name == "input" || tag.back() == '/')
+            continue;
         if (tag[0] == '/') {
             if (open.empty() || "/" + open.back() != name) return "<" + name + "> not in its turn";
             open.pop_back();
@@ -177,22 +181,104 @@ TEST_CASE("A confusion matrix is darkest where all images of a class are") {
 }
 
 TEST_CASE("A report is one well-formed page whose text cannot become markup") {
+    const auto picture = std::make_shared<ism::ReportPicture>(
+        ism::ReportPicture{.file = {'f', 'o', 'o'}, .width = 40, .height = 20});
+    ism::ReportFigure figure = ism::picture_figure(picture, nasty);
+    figure.labels = {{{1, 2, 3, 4}, nasty, {255, 0, 0}}}, figure.link = nasty;
     const ism::Report report{
         .title = nasty,
         .summary = {{nasty, nasty}},
+        .legend = {{nasty, ism::black}, {"labels", ism::white, true}},
+        .layers = {{"mask", nasty}},
         .sections = {
             {.title = nasty,
              .parts = {ism::ReportText{nasty}, ism::ReportTable{nasty, {nasty, "b"}, {{nasty, "2"}, {}}},
-                       ism::ReportImage{nasty, {'f', 'o', 'o'}}, ism::ReportPlot{ism::to_svg(ism::Plot{})}},
-             .sections = {{.title = "inner", .parts = {ism::ReportText{"b"}}, .folded = true}}}}};
+                       figure, ism::ReportGallery{{figure, figure}},
+                       ism::ReportPlot{ism::to_svg(ism::Plot{})}},
+             .sections = {
+                 {.title = "inner", .parts = {ism::ReportText{"b"}}, .folded = true, .id = nasty}}}}};
     const std::string html = ism::to_html(report);
     CHECK(markup_fault(html).empty());
     CHECK_FALSE(contains(html, "<script"));
-    CHECK_FALSE(contains(html, "src=\"http"));
-    CHECK(contains(html, "src=\"data:image/png;base64,Zm9v\""));
-    CHECK(contains(html, "<details><summary><h3>inner</h3></summary>"));
+    CHECK_FALSE(contains(html, "href=\"http"));
+    CHECK(contains(html, "href=\"data:image/jpeg;base64,Zm9v\""));
+    CHECK(html.find("Zm9v") == html.rfind("Zm9v"));  // three figures, one picture
+    CHECK(contains(html, "<summary><h3>inner</h3></summary>"));
     CHECK(contains(html, "name=\"viewport\""));
+    CHECK(contains(html, "prefers-color-scheme: dark"));
     CHECK(markup_fault(ism::to_html(ism::Report{})).empty());
+
+    ism::LinkedPictures linked{.folder = "r-images"};
+    const std::string page = ism::to_html(report, &linked);
+    REQUIRE(linked.files.size() == 1);
+    CHECK(linked.files[0].bytes == picture->file);
+    CHECK(contains(page, "href=\"r-images/1.jpg\""));
+    CHECK_FALSE(contains(page, "base64"));
+    CHECK_THROWS_AS(ism::to_html({.title = "", .sections = {{.parts = {ism::ReportFigure{}}}}}), ism::Error);
+}
+
+TEST_CASE("Words on a figure evade each other on a small screen, in any script") {
+    std::vector<ism::ReportLabel> labels(5, {{100, 100, 80, 90}, "\xE6\x9D\xAF 83 %", {}});
+    labels.push_back({{-50, -20, 80, 90}, "cup", {}});
+    const ism::Box part{0, 0, 640, 480};
+    const auto places = ism::detail::place_labels(part, labels, 330);
+    REQUIRE(places.size() == labels.size());
+    std::vector<ism::Box> taken;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const double y = places[i].top / 100 * 330 * 480 / 640 - (places[i].above ? 20 : 0);
+        taken.push_back({places[i].left / 100 * 330, y, ism::detail::words_width_px(labels[i].text), 20});
+        CHECK(taken[i].x >= 0);
+        CHECK(taken[i].y >= 0);
+        CHECK(taken[i].x + taken[i].width <= 330);
+    }
+    for (const std::size_t a : {0, 1, 2, 5})  // there are but four places at a box
+        for (std::size_t b = 0; b < a; ++b) CHECK(ism::intersection(taken[a], taken[b]).area() == 0);
+    CHECK(ism::detail::words_width_px("\xE6\x9D\xAF") > ism::detail::words_width_px("c"));
+}
+
+TEST_CASE("Pictures of a report stay small") {
+    ism::RgbImage noise(900, 600);
+    std::uint32_t state = 1;
+    for (ism::Rgb& pixel : noise.pixels()) {
+        state = state * 1664525u + 1013904223u;
+        pixel = {std::uint8_t(state >> 24), std::uint8_t(state >> 16), std::uint8_t(state >> 8)};
+    }
+    const auto picture = ism::report_picture(noise, {.side_px = 720, .most_bytes = 30000});
+    CHECK(picture->file.size() <= 30000);
+    CHECK(picture->width == 900);
+    CHECK(ism::report_picture(noise, {.most_bytes = 0})->file.size() > 100000);
+    CHECK_THROWS_AS(ism::report_picture(ism::RgbImage{}), ism::Error);
+    CHECK_THROWS_AS(ism::report_picture(noise, {.side_px = 2}), ism::Error);
+    CHECK_THROWS_AS(ism::encode_jpeg(noise, 0), ism::Error);
+}
+
+TEST_CASE("Outlines of a mask enclose its pixels and leave out its holes") {
+    ism::Mask mask(6, 5);
+    for (int y = 1; y < 4; ++y)
+        for (int x = 1; x < 5; ++x) mask(x, y) = 1;
+    CHECK(ism::mask_path(mask) == "M1 1l4 0 0 3 -4 0z");
+    CHECK(ism::mask_path(mask, 10, 20) == "M11 21l4 0 0 3 -4 0z");
+    mask(2, 2) = 0;
+    CHECK(ism::mask_path(mask, 0, 0, 0) == "M1 1l4 0 0 3 -4 0zM2 2l0 1 1 0 0 -1z");
+    mask(0, 0) = 1;  // touches at a corner alone
+    CHECK(ism::mask_outlines(mask).size() == 3);
+    CHECK(ism::mask_path(ism::Mask(3, 3)).empty());
+    CHECK(ism::mask_path(ism::Mask{}).empty());
+    // the area of the rings is that of the figure, whatever the mask
+    std::uint32_t state = 7;
+    for (int round = 0; round < 50; ++round) {
+        ism::Mask random(9, 7);
+        int pixels = 0;
+        for (auto& pixel : random.pixels())
+            state = state * 1664525u + 1013904223u, pixel = state >> 31, pixels += pixel;
+        int area = 0;
+        for (const auto& ring : ism::mask_outlines(random))
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                const auto &a = ring[i], &b = ring[(i + 1) % ring.size()];
+                area += a.x * b.y - a.y * b.x;
+            }
+        CHECK(area == 2 * pixels);
+    }
 }
 
 TEST_CASE("The section on an image tells why each detection was found") {
@@ -220,29 +306,46 @@ TEST_CASE("The section on an image tells why each detection was found") {
     CHECK(facts.rows[2][1] == "0.1, -0.2, 0.75 m");
 
     const std::vector<std::string> names{nasty};
-    const ism::ReportSection section =
-        ism::detection_section("a.png", ism::RgbImage(40, 20), detections, names, {.rows = 2});
-    CHECK(section.sections.size() == 2);
-    const std::string html = ism::to_html({.title = "t", .sections = {section}});
+    ism::Mask mask(40, 20);
+    for (int y = 5; y < 12; ++y)
+        for (int x = 25; x < 35; ++x) mask(x, y) = 1;
+    const std::vector<ism::ShownLabel> labels = {
+        {.class_index = 0, .box = {25, 5, 10, 7}, .mask = mask, .missed = true},
+        {.class_index = 0, .box = object.box}};
+    const std::vector<ism::Judged> judged = {ism::Judged::right, ism::Judged::wrong, ism::Judged::wrong};
+    const auto pages_of = [&] {
+        return ism::detection_pages("a.png", ism::RgbImage(40, 20), detections, names,
+                                    {.rows = 2, .labels = labels, .judged = judged, .id = "image-1"});
+    };
+    ism::DetectionPages pages = pages_of();
+    CHECK(pages.section.sections.size() == 2);
+    CHECK(contains(pages.section.sections[0].title, "✗"));  // wrong ones first
+    REQUIRE(pages.mistakes.size() == 3);
+    CHECK(contains(pages.mistakes[0].caption, "missed: "));
+    CHECK(pages.mistakes[0].link == "#image-1");
+    const auto html_of = [](const ism::DetectionPages& shown) {
+        return ism::to_html(
+            {.title = "t", .sections = {shown.section, {.parts = {ism::ReportGallery{shown.mistakes}}}}});
+    };
+    const std::string html = html_of(pages);
     CHECK(markup_fault(html).empty());
     CHECK(contains(html, "3 detections"));
-    CHECK(contains(html, "the strongest 2 of 3"));
+    CHECK(contains(html, "Explained below: 2 of 3"));
+    CHECK(contains(html, "d=\"M25 5l10 0 0 7 -10 0z\""));
+    CHECK(contains(html, "aria-label=\"a.png, 3 detections"));
     CHECK_FALSE(contains(html, "against"));
-    detections.objects[0].cells = {{2, 1, false}, {0.5f, -0.25f}};
-    const std::string with_cells =
-        ism::to_html({.title = "t",
-                      .sections = {ism::detection_section("a.png", ism::RgbImage(40, 20), detections, names,
-                                                          {.rows = 2})}});
+    for (ism::Detection& one : detections.objects) one.cells = {{2, 1, false}, {0.5f, -0.25f}};
+    const std::string with_cells = html_of(pages_of());
     CHECK(markup_fault(with_cells).empty());
-    CHECK(contains(with_cells, "<title>0.5</title>"));
-    CHECK(contains(with_cells, "<title>-0.25</title>"));
-    CHECK(contains(with_cells, ">against</text>"));
-    CHECK(contains(with_cells, "together 0.25"));
-    CHECK_THROWS_WITH(ism::cells_plot(ism::RgbImage(40, 20), object),
+    CHECK(contains(with_cells, "template, score 0.25"));
+    CHECK(contains(with_cells, ism::hex_color(ism::detail::for_color)));
+    CHECK(contains(with_cells, ism::hex_color(ism::detail::against_color)));
+    const auto picture = ism::report_picture(ism::RgbImage(40, 20));
+    CHECK_THROWS_WITH(ism::cells_figure(picture, {0, 0, 40, 20}, object),
                       Catch::Contains("cells of a detection"));
-    CHECK(
-        markup_fault(ism::to_html({.title = "",
-                                   .summary = {},
-                                   .sections = {ism::detection_section("", ism::RgbImage(4, 4), {}, names)}}))
-            .empty());
+    CHECK(markup_fault(
+              ism::to_html({.title = "",
+                            .summary = {},
+                            .sections = {ism::detection_pages("", ism::RgbImage(4, 4), {}, names).section}}))
+              .empty());
 }

@@ -25,6 +25,7 @@ namespace ism {
     const auto number = [](double value) { return detail::svg_number(value); };
     std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width) + "\" height=\"" +
                       number(height) + "\" viewBox=\"0 0 " + number(width) + " " + number(height) +
+                      "\" class=\"matrix\" role=\"img\" aria-label=\"" + escape_markup(title) +
                       "\" font-family=\"system-ui, sans-serif\" font-size=\"12\" fill=\"#333\">\n";
     svg +=
         detail::svg_text(width / 2, 18, title, "text-anchor=\"middle\" font-size=\"14\" font-weight=\"600\"");

@@ -41,13 +41,6 @@ namespace detail {
     return row;
 }
 
-/// The sizes of a segmentation's parts, which must be one.
-inline void check_segmentation(const Segmentation& part) {
-    for (const GrayImage* map : {&part.figure, &part.ground})
-        expect(map->width() == part.mask.width() && map->height() == part.mask.height(),
-               "probability map size", size_text(part.mask), size_text(*map));
-}
-
 /// The row of draw_explanation() for the whole image.
 [[nodiscard]] inline RgbImage panel_row(ImageView<const Rgb> image, const Detections& detections,
                                         const Detection& detection, std::span<const std::string> class_names,

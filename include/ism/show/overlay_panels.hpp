@@ -14,6 +14,7 @@
 #include "ism/detect/detection.hpp"
 #include "ism/show/draw.hpp"
 #include "ism/show/draw_mask.hpp"
+#include "ism/show/feature_weights.hpp"
 #include "ism/show/font.hpp"
 
 namespace ism::detail {
@@ -45,15 +46,6 @@ namespace ism::detail {
     return large;
 }
 
-/// "cup 83 %", how probable it is; or, where that is not known, its score, "cup 0.412"
-[[nodiscard]] inline std::string label_text(const Detection& detection, std::span<const std::string> names) {
-    expect(detection.class_index < names.size(), "class of a detection", lazy_text("below ", names.size()),
-           detection.class_index);
-    return names[detection.class_index] + " " +
-           (std::isnan(detection.probability) ? number_text(detection.score, 3)
-                                              : number_text(std::round(100 * detection.probability)) + " %");
-}
-
 /// Writes a label at a box: above it, or where that place is outside the image or `used` already, inside
 /// its upper edge or below it. Adds the place to `used`.
 inline void draw_label(ImageView<Rgb> image, const Box& box, const std::string& text, Rgb color,
@@ -75,29 +67,6 @@ inline void draw_label(ImageView<Rgb> image, const Box& box, const std::string& 
     used.push_back(place);
     fill_box(image, place, color);
     draw_text(image, int(place.x) + 2 * size, int(place.y) + 3 * size / 2, text, ink_on(color), size);
-}
-
-/// What a feature adds to a detection, all its votes together.
-struct FeatureWeight {
-    std::uint32_t feature = 0;
-    double weight = 0;
-};
-
-/// The features that support a detection, strongest last, so that they are drawn on top.
-[[nodiscard]] inline std::vector<FeatureWeight> feature_weights(const Detections& detections,
-                                                                const Detection& detection) {
-    std::vector<FeatureWeight> weights(detections.features.size());
-    for (const Support& s : detection.support) {
-        expect(s.feature < weights.size(), "feature of a vote", lazy_text("below ", weights.size()),
-               s.feature);
-        weights[s.feature] = {s.feature, weights[s.feature].weight + double(s.weight)};
-    }
-    weights.erase(std::remove_if(weights.begin(), weights.end(),
-                                 [](const FeatureWeight& f) { return !(f.weight > 0); }),
-                  weights.end());
-    std::stable_sort(weights.begin(), weights.end(),
-                     [](const FeatureWeight& a, const FeatureWeight& b) { return a.weight < b.weight; });
-    return weights;
 }
 
 /// The features that vote for a detection as circles (radius: `circle_scales` times their scale), each with a
@@ -123,6 +92,13 @@ inline void draw_support(ImageView<Rgb> image, const Detections& detections, con
         }
     fill_disc(image, centre, 3.5 * pen, black);
     fill_disc(image, centre, 2.5 * pen, mix(color, white, 0.3));
+}
+
+/// The sizes of a segmentation's parts, which must be one.
+inline void check_segmentation(const Segmentation& part) {
+    for (const GrayImage* map : {&part.figure, &part.ground})
+        expect(map->width() == part.mask.width() && map->height() == part.mask.height(),
+               "probability map size", size_text(part.mask), size_text(*map));
 }
 
 /// A map of a segmentation as colours over the whole image; `top` is the brightest value.

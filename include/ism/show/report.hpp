@@ -2,74 +2,56 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <variant>
 #include <vector>
 
-#include "ism/show/markup.hpp"
+#include "ism/show/color.hpp"
+#include "ism/show/report_labels.hpp"
+#include "ism/show/report_parts.hpp"
 #include "ism/show/report_style.hpp"
+#include "ism/show/svg.hpp"
 
 namespace ism {
 
-/// @brief A paragraph.
-struct ReportText {
-    std::string text;
-};
-
-/// @brief A table; the first column is text, the others stand to the right as numbers do.
-struct ReportTable {
-    std::string caption = {};
-    std::vector<std::string> header = {};
-    std::vector<std::vector<std::string>> rows = {};
-};
-
-/// @brief An image with its PNG file's bytes.
-struct ReportImage {
-    std::string caption = {};
-    std::vector<std::uint8_t> png = {};
-};
-
-/// @brief An <svg> element, such as to_svg() gives; it goes into the page as it is.
-struct ReportPlot {
-    std::string svg;
-};
-
-using ReportPart = std::variant<ReportText, ReportTable, ReportImage, ReportPlot>;
-
-/// @brief A part of a report under a heading.
-struct ReportSection {
-    std::string title = {};
-    std::vector<ReportPart> parts = {};
-    std::vector<ReportSection> sections = {};  ///< under smaller headings
-    bool folded = false;                       ///< only the heading shows until it is clicked
-};
-
-/// @brief What a report says.
-struct Report {
-    std::string title = {};
-    std::vector<std::pair<std::string, std::string>> summary = {};  ///< what and how much, shown at the top
-    std::vector<ReportSection> sections = {};
+/// @brief Pictures that a page shows from files beside it.
+struct LinkedPictures {
+    std::string folder = {};  ///< as the page names it, with / between folders
+    struct File {
+        std::string name = {};  ///< in the folder
+        std::vector<std::uint8_t> bytes = {};
+    };
+    std::vector<File> files = {};  ///< to_html() adds them
 };
 
 namespace detail {
+
+/// The pictures of a page, each once.
+using PagePictures = std::vector<const ReportPicture*>;
 
 [[nodiscard]] inline std::string element(std::string_view name, std::string_view text) {
     return join_text("<", name, ">", escape_markup(text), "</", name, ">");
 }
 
-[[nodiscard]] inline std::string to_html(const ReportText& part) {
+[[nodiscard]] inline bool is_png(const std::vector<std::uint8_t>& file) {
+    return file.size() > 1 && file[0] == 0x89 && file[1] == 'P';
+}
+
+[[nodiscard]] inline std::string to_html(const ReportText& part, PagePictures&) {
     return element("p", part.text) + "\n";
 }
 
-[[nodiscard]] inline std::string to_html(const ReportTable& part) {
-    std::string html = "<div class=\"wide\"><table>\n";
+[[nodiscard]] inline std::string to_html(const ReportTable& part, PagePictures&) {
+    std::string html = part.header.empty() ? "<div class=\"wide facts\"><table>\n"
+                                           : "<div class=\"wide\" tabindex=\"0\"><table>\n";
     if (!part.caption.empty()) html += element("caption", part.caption) + "\n";
     if (!part.header.empty()) {
         html += "<thead><tr>";
-        for (const std::string& cell : part.header) html += element("th", cell);
+        for (const std::string& cell : part.header)
+            html += "<th scope=\"col\">" + escape_markup(cell) + "</th>";
         html += "</tr></thead>\n";
     }
     html += "<tbody>\n";
@@ -81,56 +63,122 @@ namespace detail {
     return html + "</tbody></table></div>\n";
 }
 
-/// Width of a PNG file's image over its height; 0 where the bytes are none.
-[[nodiscard]] inline double png_aspect(const std::vector<std::uint8_t>& png) {
-    if (png.size() < 24) return 0;
-    const auto side = [&](std::size_t at) {
-        double value = 0;
-        for (std::size_t i = 0; i < 4; ++i) value = value * 256 + png[at + i];
-        return value;
-    };
-    return side(20) > 0 ? side(16) / side(20) : 0;
-}
-
-[[nodiscard]] inline std::string to_html(const ReportImage& part) {
-    std::string html = png_aspect(part.png) > 2.5 ? "<figure class=\"row\">" : "<figure>";
-    html += "<img loading=\"lazy\" alt=\"" + escape_markup(part.caption) + "\" src=\"data:image/png;base64," +
-            base64(part.png) + "\">";
+[[nodiscard]] inline std::string to_html(const ReportFigure& part, PagePictures& pictures) {
+    const Box& shown = part.part;
+    expect(shown.width > 0 && shown.height > 0, "part of a figure", "some pixels",
+           lazy_text(shown.width, "x", shown.height));
+    const auto number = [](double value) { return svg_number(value); };
+    std::string html = "<figure style=\"width:" + std::to_string(part.width_px) + "px\">";
+    if (!part.link.empty()) html += "<a href=\"" + escape_markup(part.link) + "\">";
+    html += std::string("<div class=\"") + (part.picture ? "pic" : "pic bare") + "\"><svg viewBox=\"" +
+            number(shown.x) + " " + number(shown.y) + " " + number(shown.width) + " " + number(shown.height) +
+            "\" role=\"img\" aria-label=\"" + escape_markup(part.alt.empty() ? part.caption : part.alt) +
+            "\">";
+    if (part.picture) {
+        auto at = std::find(pictures.begin(), pictures.end(), part.picture.get());
+        if (at == pictures.end()) at = pictures.insert(at, part.picture.get());
+        html += join_text("<use href=\"#p", at - pictures.begin(), "\"/>");
+    }
+    html += part.shapes + "</svg>";
+    const std::vector<LabelPlace> places =
+        place_labels(shown, part.labels, std::min(330.0, double(part.width_px)));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const ReportLabel& label = part.labels[i];
+        html += std::string("<span aria-hidden=\"true\" dir=\"auto\" class=\"label") +
+                (places[i].above ? " above" : "") + "\" style=\"left:" + number(places[i].left) +
+                "%;top:" + number(places[i].top) + "%;background:" + hex_color(label.color) +
+                ";color:" + hex_color(ink_on(label.color)) + "\">" + escape_markup(label.text) + "</span>";
+    }
+    html += "</div>";
     if (!part.caption.empty()) html += element("figcaption", part.caption);
-    return html + "</figure>\n";
+    return html + (part.link.empty() ? "</figure>\n" : "</a></figure>\n");
 }
 
-[[nodiscard]] inline std::string to_html(const ReportPlot& part) {
+[[nodiscard]] inline std::string to_html(const ReportGallery& part, PagePictures& pictures) {
+    std::string html = "<div class=\"gallery\">\n";
+    for (const ReportFigure& figure : part.figures) html += to_html(figure, pictures);
+    return html + "</div>\n";
+}
+
+[[nodiscard]] inline std::string to_html(const ReportPlot& part, PagePictures&) {
     return "<figure>" + part.svg + "</figure>\n";
 }
 
-[[nodiscard]] inline std::string to_html(const ReportSection& section, int level) {
+[[nodiscard]] inline std::string to_html(const ReportSection& section, int level, PagePictures& pictures) {
     const std::string heading = element(level < 4 ? (level == 2 ? "h2" : "h3") : "h4", section.title);
-    std::string html =
-        section.folded ? "<details><summary>" + heading + "</summary>\n" : "<section>" + heading + "\n";
+    const std::string id = section.id.empty() ? "" : " id=\"" + escape_markup(section.id) + "\"";
+    std::string html = section.folded ? "<details" + id + "><summary>" + heading + "</summary>\n"
+                                      : "<section" + id + ">" + heading + "\n";
     for (const ReportPart& part : section.parts)
-        html += std::visit([](const auto& p) { return to_html(p); }, part);
-    for (const ReportSection& inner : section.sections) html += to_html(inner, level + 1);
+        html += std::visit([&](const auto& p) { return to_html(p, pictures); }, part);
+    for (const ReportSection& inner : section.sections) html += to_html(inner, level + 1, pictures);
     return html + (section.folded ? "</details>\n" : "</section>\n");
+}
+
+/// Title, summary, legend and what can be hidden.
+[[nodiscard]] inline std::string head_html(const Report& report) {
+    std::string html = element("h1", report.title) + "\n";
+    if (!report.summary.empty()) {
+        html += "<dl>\n";
+        for (const auto& [what, value] : report.summary)
+            html += "<div>" + element("dt", what) + element("dd", value) + "</div>\n";
+        html += "</dl>\n";
+    }
+    if (!report.legend.empty()) {
+        html += "<ul class=\"legend\" aria-label=\"legend\">\n";
+        for (const ReportKey& key : report.legend)
+            html += std::string("<li dir=\"auto\"><i class=\"") + (key.dashed ? "dashed" : "full") +
+                    "\" style=\"--c:" + hex_color(key.color) + "\"></i>" + escape_markup(key.name) +
+                    "</li>\n";
+        html += "</ul>\n";
+    }
+    if (!report.layers.empty()) {
+        html += "<p class=\"layers\">Show:";
+        for (const ReportLayer& layer : report.layers)
+            html += " <label><input type=\"checkbox\" checked id=\"show-" + escape_markup(layer.css_class) +
+                    "\"> " + escape_markup(layer.name) + "</label>";
+        html += "</p>\n";
+    }
+    return html;
 }
 
 }  // namespace detail
 
-/// @brief The report as one HTML page that needs no other file: images are inside it, there are no scripts.
-[[nodiscard]] inline std::string to_html(const Report& report) {
+/// @brief The report as one HTML page without scripts, light or dark as the reader's screen is. Each picture
+/// is in the page once, or in a file beside it.
+/// @param linked  takes the pictures' files, to be written beside the page; none = they are in the page,
+/// which
+///                then needs no other file
+/// @throws Error where a figure shows no pixels.
+[[nodiscard]] inline std::string to_html(const Report& report, LinkedPictures* linked = nullptr) {
+    detail::PagePictures pictures;
+    std::string body = detail::head_html(report);
+    for (const ReportSection& section : report.sections) body += detail::to_html(section, 2, pictures);
+    std::string style(detail::report_style);
+    for (const ReportLayer& layer : report.layers)
+        style += ":root:has(#show-" + layer.css_class + ":not(:checked)) ." + layer.css_class +
+                 " { display: none; }\n";
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
-    html += detail::element("title", report.title) + "\n<style>" + std::string(detail::report_style) +
-            "</style>\n</head>\n<body>\n<main>\n" + detail::element("h1", report.title) + "\n";
-    if (!report.summary.empty()) {
-        html += "<dl>\n";
-        for (const auto& [what, value] : report.summary)
-            html += "<div>" + detail::element("dt", what) + detail::element("dd", value) + "</div>\n";
-        html += "</dl>\n";
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<link rel=\"icon\" href=\"data:,\">\n" +
+        detail::element("title", report.title) + "\n<style>" + style + "</style>\n</head>\n<body>\n";
+    if (!pictures.empty()) html += "<svg class=\"pictures\" aria-hidden=\"true\"><defs>\n";
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const ReportPicture& picture = *pictures[i];
+        const bool png = detail::is_png(picture.file);
+        std::string address = std::string("data:image/") + (png ? "png" : "jpeg") + ";base64," +
+                              (linked ? "" : base64(picture.file));
+        if (linked) {
+            linked->files.push_back({join_text(i + 1, png ? ".png" : ".jpg"), picture.file});
+            address = linked->folder + "/" + linked->files.back().name;
+        }
+        html += join_text("<image id=\"p", i, "\" width=\"") + detail::svg_number(picture.width) +
+                "\" height=\"" + detail::svg_number(picture.height) +
+                "\" preserveAspectRatio=\"none\" href=\"" + escape_markup(address) + "\"/>\n";
     }
-    for (const ReportSection& section : report.sections) html += detail::to_html(section, 2);
-    return html + "</main>\n</body>\n</html>\n";
+    if (!pictures.empty()) html += "</defs></svg>\n";
+    return html + "<main>\n" + body + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace ism

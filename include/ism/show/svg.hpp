@@ -90,7 +90,8 @@ namespace detail {
     const int height = plot.height_px + 20 * int(plot.curves.size());
     const std::string size = join_text(plot.width_px, "\" height=\"", height);
     std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size + "\" viewBox=\"0 0 " +
-                      join_text(plot.width_px, " ", height) +
+                      join_text(plot.width_px, " ", height) + "\" class=\"plot\" role=\"img\" aria-label=\"" +
+                      escape_markup(plot.title) +
                       "\" font-family=\"system-ui, sans-serif\" font-size=\"13\" fill=\"#333\">\n";
     svg += "<rect width=\"" + size + "\" fill=\"#fff\"/>\n";
     svg += detail::svg_text((left + right) / 2, 20, plot.title,

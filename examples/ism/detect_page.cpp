@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include "detect_page.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+#include "input.hpp"
+
+#include "ism/evaluate/coco.hpp"
+#include "ism/evaluate/plot.hpp"
+
+namespace program {
+
+namespace {
+
+/// Of these so many are shown; the others are counted.
+constexpr std::size_t most_mistakes = 36, most_named = 300;
+
+std::uint32_t index_of(const std::vector<std::string>& names, const std::string& name) {
+    return std::uint32_t(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+/// How well each class was found, and the curves.
+ism::ReportSection figures_section(const ism::Dataset& dataset, std::span<const ism::Result> results,
+                                   const std::vector<std::string>& names) {
+    const ism::Evaluation evaluation = ism::evaluate(dataset, results);
+    ism::ReportTable table{.header = {"class", "objects", "found", "missed", "wrong", "AP %", "mask IoU %"}};
+    ism::Plot plot = ism::precision_recall_plot(evaluation);
+    plot.width_px = 380, plot.height_px = 320;
+    std::size_t curve = 0;
+    for (const ism::ClassEvaluation& one : evaluation.classes) {
+        if (one.objects > 0) plot.curves[curve++].color = ism::class_color(index_of(names, one.name));
+        if (one.objects + one.detections == 0) continue;
+        table.rows.push_back({one.name, std::to_string(one.objects), std::to_string(one.true_positives),
+                              std::to_string(one.objects - one.true_positives),
+                              std::to_string(one.detections - one.true_positives),
+                              ism::percent_text(one.figures.ap), ism::percent_text(one.figures.mask_iou)});
+    }
+    ism::ReportSection section{.title = "How well they were found"};
+    table.rows.push_back({"mean", "", "", "", "", ism::percent_text(evaluation.mean.ap),
+                          ism::percent_text(evaluation.mean.mask_iou)});
+    section.parts.push_back(ism::ReportPlot{ism::to_svg(plot)});
+    section.parts.push_back(std::move(table));
+    section.parts.push_back(
+        ism::ReportText{"A box is right from an IoU of .5. What was not told for its low score (--min-score) "
+                        "counts as missed."});
+    return section;
+}
+
+}  // namespace
+
+std::string page_name(const ism::Dataset& dataset, const ism::DatasetImage& image) {
+    return dataset.source.empty() ? ism::path_to_utf8(image.file.filename()) : short_name(dataset, image);
+}
+
+DetectPage::DetectPage(const ism::Dataset& dataset, const std::vector<std::vector<ism::Result>>& results,
+                       std::span<const std::string> class_names, std::size_t most)
+    : dataset_(dataset),
+      results_(results),
+      names_(class_names.begin(), class_names.end()),
+      images_(results.size()) {
+    const bool labelled = std::any_of(dataset.images.begin(), dataset.images.end(),
+                                      [](const auto& image) { return !image.objects.empty(); });
+    for (const std::string& name : dataset.class_names)
+        if (index_of(names_, name) == names_.size()) names_.push_back(name);
+    std::iota(images_.begin(), images_.end(), std::size_t(0));
+    if (labelled) {
+        mistakes_ = find_mistakes(dataset, results);
+        std::stable_sort(images_.begin(), images_.end(), [&](std::size_t a, std::size_t b) {
+            return mistakes_[a].weight > mistakes_[b].weight;
+        });
+    }
+    images_.resize(std::min(most, images_.size()));
+    pages_.resize(images_.size());
+}
+
+void DetectPage::add(std::size_t k, const ism::RgbImage& picture, ism::Detections detections,
+                     std::size_t rows, const PageOptions& options,
+                     std::span<const ism::TrainingObject> objects) {
+    const std::size_t i = images_[k];
+    const ism::DatasetImage& image = dataset_.images[i];
+    std::erase_if(detections.objects, [&](const ism::Detection& one) {  // as to_results() does
+        return !(
+            ism::intersection(one.box, {0, 0, double(picture.width()), double(picture.height())}).area() > 0);
+    });
+    std::string remark;
+    std::vector<ism::ShownLabel> labels;
+    std::vector<ism::Judged> judged;
+    if (!mistakes_.empty()) {
+        const Mistakes& mistakes = mistakes_[i];
+        remark = mistakes.text();
+        for (const ism::DatasetAnnotation& object : image.objects)
+            if (!object.crowd)
+                labels.push_back(
+                    {.class_index = index_of(names_, dataset_.class_names[object.class_index]),
+                     .box = object.box,
+                     .mask = ism::read_mask(image, object),
+                     .missed = std::count(mistakes.missed_objects.begin(), mistakes.missed_objects.end(),
+                                          std::size_t(&object - image.objects.data())) > 0});
+        for (const bool wrong : mistakes.wrong_results)
+            judged.push_back(wrong ? ism::Judged::wrong : ism::Judged::right);
+    }
+    pages_[k] = ism::detection_pages(page_name(dataset_, image), picture, detections, names_,
+                                     {.rows = rows,
+                                      .picture = picture_options(options, images_.size()),
+                                      .labels = labels,
+                                      .judged = judged,
+                                      .objects = objects,
+                                      .remark = remark,
+                                      .id = ism::join_text("image-", i + 1)});
+}
+
+ism::Report DetectPage::report(std::string title,
+                               std::vector<std::pair<std::string, std::string>> summary) const {
+    const bool labelled = !mistakes_.empty();
+    ism::Report report{.title = std::move(title), .summary = std::move(summary)};
+    if (pages_.size() < results_.size())
+        report.summary.emplace_back("shown here",
+                                    ism::join_text("the ", labelled ? "" : "first ", pages_.size(), " images",
+                                                   labelled ? " with the worst mistakes" : ""));
+    report.legend = ism::detection_legend(names_, labelled);
+    report.layers = ism::detection_layers(labelled);
+    if (labelled) {
+        ism::ReportGallery gallery;
+        std::size_t missed = 0, wrong = 0;
+        for (const Mistakes& one : mistakes_) missed += one.missed.size(), wrong += one.wrong.size();
+        for (const ism::DetectionPages& page : pages_)
+            for (const ism::ReportFigure& figure : page.mistakes)
+                if (gallery.figures.size() < most_mistakes) gallery.figures.push_back(figure);
+        ism::ReportSection section{.title =
+                                       ism::join_text("Mistakes: ", missed, " missed, ", wrong, " wrong")};
+        if (gallery.figures.empty())
+            section.parts.push_back(
+                ism::ReportText{"None: every labelled object was found, and nothing else."});
+        if (gallery.figures.size() < missed + wrong)
+            section.parts.push_back(
+                ism::ReportText{ism::join_text("The worst ", gallery.figures.size(), ":")});
+        section.parts.push_back(std::move(gallery));
+        report.sections.push_back(std::move(section));
+        std::vector<ism::Result> all;
+        for (const auto& part : results_) all.insert(all.end(), part.begin(), part.end());
+        report.sections.push_back(figures_section(dataset_, all, names_));
+    }
+    if (results_.size() > 1) {
+        ism::ReportSection list{.title = "Images"};
+        ism::ReportGallery gallery;
+        for (const ism::DetectionPages& page : pages_) gallery.figures.push_back(page.thumbnail);
+        list.parts.push_back(std::move(gallery));
+        if (pages_.size() < results_.size()) {
+            ism::ReportSection others{.title = "All images in words", .folded = true};
+            ism::ReportTable table{.header = {"image", "labelled", "found", "mistakes"}};
+            for (std::size_t i = 0; i < std::min(results_.size(), most_named); ++i)
+                table.rows.push_back({page_name(dataset_, dataset_.images[i]),
+                                      std::to_string(dataset_.images[i].objects.size()),
+                                      std::to_string(results_[i].size()),
+                                      labelled ? mistakes_[i].text() : ""});
+            others.parts.push_back(std::move(table));
+            if (results_.size() > most_named)
+                others.parts.push_back(
+                    ism::ReportText{ism::join_text("… and ", results_.size() - most_named, " more.")});
+            list.sections.push_back(std::move(others));
+        }
+        report.sections.push_back(std::move(list));
+    }
+    for (const ism::DetectionPages& page : pages_) report.sections.push_back(page.section);
+    return report;
+}
+
+}  // namespace program

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ism/core/resize_area.hpp"
+#include "ism/io/jpeg.hpp"
+#include "ism/show/report_parts.hpp"
+#include "ism/show/svg.hpp"
+
+namespace ism {
+
+/// @brief How much room a picture of a report may take.
+struct ReportPictureOptions {
+    int side_px = 720;               ///< its longer side; larger pictures are made smaller
+    std::size_t most_bytes = 60000;  ///< of its file; 0 = any. Quality goes down first, then size
+};
+
+/// @brief Throws Error where an option is out of range.
+inline void check(const ReportPictureOptions& options) {
+    expect(options.side_px >= 16, "report pictures: longer side", "16 or more pixels", options.side_px);
+}
+
+/// @brief An image made so much smaller, 0 < zoom ≤ 1; each pixel is the mean of those it stands for.
+[[nodiscard]] inline RgbImage shrunk(ImageView<const Rgb> image, double zoom) {
+    std::vector<float> numbers;
+    numbers.reserve(std::size_t(image.width()) * std::size_t(image.height()) * 3);
+    for (int y = 0; y < image.height(); ++y)
+        for (const Rgb& pixel : image.row(y))
+            numbers.insert(numbers.end(), {float(pixel.r), float(pixel.g), float(pixel.b)});
+    const auto side = [&](int px) { return std::max(1, int(std::lround(zoom * px))); };
+    RgbImage small(side(image.width()), side(image.height()));
+    numbers = resize_area(numbers, image.width(), image.height(), 3, small.width(), small.height());
+    for (std::size_t i = 0; i < small.pixels().size(); ++i)
+        small.pixels()[i] = {std::uint8_t(numbers[3 * i] + 0.5f), std::uint8_t(numbers[3 * i + 1] + 0.5f),
+                             std::uint8_t(numbers[3 * i + 2] + 0.5f)};
+    return small;
+}
+
+/// @brief A picture for the figures of a report: a JPEG file of at most so many pixels and bytes.
+/// @throws Error where the image has no pixels, or an option is out of range.
+[[nodiscard]] inline std::shared_ptr<const ReportPicture> report_picture(
+    ImageView<const Rgb> image, const ReportPictureOptions& options = {}) {
+    check(options);
+    expect(!image.empty(), "picture of a report", "at least 1x1 pixels", size_text(image));
+    ReportPicture picture{.file = {}, .width = double(image.width()), .height = double(image.height())};
+    double zoom = std::min(1.0, double(options.side_px) / std::max(image.width(), image.height()));
+    for (;; zoom *= 0.75) {
+        const RgbImage small = shrunk(image, zoom);
+        for (const int quality : {88, 78, 66, 52}) {
+            picture.file = encode_jpeg(small, quality);
+            if (options.most_bytes == 0 || picture.file.size() <= options.most_bytes)
+                return std::make_shared<const ReportPicture>(std::move(picture));
+        }
+        if (std::max(small.width(), small.height()) <= 32) break;
+    }
+    return std::make_shared<const ReportPicture>(std::move(picture));
+}
+
+/// @brief A figure that shows a whole picture.
+[[nodiscard]] inline ReportFigure picture_figure(std::shared_ptr<const ReportPicture> picture,
+                                                 std::string caption = {}) {
+    const Box whole{0, 0, picture->width, picture->height};
+    return {.caption = std::move(caption), .picture = std::move(picture), .part = whole};
+}
+
+/// @brief How wide a figure is on the screen so that it is not higher than `most_px`.
+[[nodiscard]] inline int figure_width_px(const Box& part, int most_px) {
+    return std::max(60, int(std::lround(std::min(1.0, part.width / part.height) * most_px)));
+}
+
+/// @brief A <rect> for a figure; `more` are further attributes.
+[[nodiscard]] inline std::string svg_box(const Box& box, const std::string& more) {
+    return "<rect x=\"" + detail::svg_number(box.x) + "\" y=\"" + detail::svg_number(box.y) + "\" width=\"" +
+           detail::svg_number(box.width) + "\" height=\"" + detail::svg_number(box.height) + "\" " + more +
+           "/>";
+}
+
+}  // namespace ism
