@@ -88,6 +88,18 @@ struct EvaluateCommand {
     bool skip_bad = false;
 };
 
+struct InspectCommand {
+    std::filesystem::path data, report = {};  ///< no report = on the terminal alone
+    PageOptions page = {};
+    unsigned threads = 0;
+};
+
+struct InfoCommand {
+    std::filesystem::path model, report = {};  ///< no report = on the terminal alone
+    std::filesystem::path data = {};           ///< what the model was learnt from, for pictures of its words
+    PageOptions page = {};
+};
+
 struct DemoCommand {
     std::filesystem::path folder = "ism-demo";
     bool small = false;  ///< a few pictures only
@@ -101,6 +113,7 @@ void run_train(const TrainCommand& command);
 void run_detect(const DetectCommand& command);
 void run_evaluate(const EvaluateCommand& command);
 void run_demo(const DemoCommand& command);
-void run_info(const std::filesystem::path& model);
+void run_inspect(const InspectCommand& command);
+void run_info(const InfoCommand& command);
 
 }  // namespace program

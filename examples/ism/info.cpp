@@ -1,16 +1,31 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cstdio>
+#include <optional>
 
 #include "commands.hpp"
+#include "info_page.hpp"
 #include "input.hpp"
+#include "page.hpp"
 
+#include "ism/dataset/coco.hpp"
 #include "ism/model_file/model_file.hpp"
 
 namespace program {
 
-void run_info(const std::filesystem::path& path) {
+void run_info(const InfoCommand& command) {
+    const std::filesystem::path& path = command.model;
+    if (!command.report.empty()) check_output(command.report, std::array{command.model, command.data});
     const ism::Model model = ism::load_model(path);
+    if (!command.report.empty()) {
+        std::optional<ism::Dataset> data;
+        if (!command.data.empty()) data = ism::read_dataset(command.data);
+        write_page(
+            command.report,
+            model_report(model, "Model " + ism::path_to_utf8(path.filename()), data ? &*data : nullptr),
+            command.page);
+    }
     const ism::TrainingSummary& training = model.training;
     std::printf("format          ism model, version %lld\n",
                 static_cast<long long>(ism::detail::model_format_version));

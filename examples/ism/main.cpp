@@ -41,11 +41,12 @@ constexpr const char* data_text =
     "images a class";
 
 void add_report_images(CLI::App& app, program::PageOptions& page) {
-    app.add_option_function<std::string>(
-           "--report-images", [&page](const std::string& kind) { page.link = kind == "link"; },
-           "embed: the pictures are in the page, which needs no other file; link: they are files in a folder "
-           "beside it, sharper")
-        ->check(CLI::IsMember({"embed", "link"}))
+    only(app.add_option_function<std::string>(
+             "--report-images", [&page](const std::string& kind) { page.link = kind == "link"; },
+             "embed: the pictures are in the page, which needs no other file; link: they are files in a "
+             "folder "
+             "beside it, sharper"),
+         {"embed", "link"})
         ->default_str("embed");
 }
 
@@ -255,6 +256,29 @@ void add_demo(CLI::App& parent, program::DemoCommand& command) {
     app.callback([&command] { program::run_demo(command); });
 }
 
+void add_inspect(CLI::App& parent, program::InspectCommand& command) {
+    CLI::App& app = *parent.add_subcommand(
+        "inspect", "tell what is in a data set before it is learnt from, and what looks wrong");
+    app.add_option("--data", command.data, "labelled images, COCO JSON")->required();
+    app.add_option("--report", command.report, "HTML page to write, with examples of each class");
+    add_report_images(app, command.page);
+    add_threads(app, command.threads);
+    app.callback([&command] { program::run_inspect(command); });
+}
+
+void add_info(CLI::App& parent, program::InfoCommand& command) {
+    CLI::App& app = *parent.add_subcommand("info", "tell what is in a model file");
+    app.add_option("model", command.model, "model file")->required();
+    CLI::Option* report = app.add_option("--report", command.report,
+                                         "HTML page to write: words, objects and templates of each class");
+    app.add_option("--data", command.data,
+                   "the labelled images it was learnt from, COCO JSON, so that the page shows words as they "
+                   "were seen")
+        ->needs(report);
+    add_report_images(app, command.page);
+    app.callback([&command] { program::run_info(command); });
+}
+
 /// One line on stderr.
 int fail(std::string message) {
     std::replace(message.begin(), message.end(), '\n', ' ');
@@ -299,14 +323,14 @@ int main(int argc, char** argv) {
     program::EvaluateCommand evaluate;
     program::DemoCommand demo;
     demo.program = called;
-    std::filesystem::path model;
+    program::InspectCommand inspect;
+    program::InfoCommand info;
     add_train(app, train);
     add_detect(app, detect);
     add_evaluate(app, evaluate);
     add_demo(app, demo);
-    CLI::App& info = *app.add_subcommand("info", "tell what is in a model file");
-    info.add_option("model", model, "model file")->required();
-    info.callback([&model] { program::run_info(model); });
+    add_inspect(app, inspect);
+    add_info(app, info);
 
     std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
     if (arguments.empty()) return tell_first_steps(called);

@@ -8,7 +8,7 @@ make_toys
 model=toys/model.safetensors
 line=refused_in_a_line
 
-$line "expected a command (train, detect, evaluate, demo, info) first, got 'detct': did you mean detect?" "$ism" detct
+$line "expected a command (train, detect, evaluate, demo, inspect, info) first, got 'detct': did you mean detect?" "$ism" detct
 $line "to find objects in it: ism detect --model MODEL toys/test.json" "$ism" toys/test.json
 $line "bogus" "$ism" bogus
 $line "--data" "$ism" train -o out

@@ -21,7 +21,7 @@ done <commands.txt
 for file in model.safetensors found.json report.html; do [[ -s $file ]] || fail "README: no $file"; done
 
 # Every option that the README names is one of the program's.
-for command in train detect evaluate demo info; do "$ism" "$command" --help; done >help.txt
+for command in train detect evaluate demo inspect info; do "$ism" "$command" --help; done >help.txt
 sed -n '/^## The program/,/^## Vote spaces/p' "$readme" | grep -oE '`[^`]*`' | grep -oE -- '--[a-z][a-z-]+' | sort -u >options.txt
 (($(wc -l <options.txt) > 10)) || fail "README: expected the program's options, got $(cat options.txt)"
 while IFS= read -r option; do

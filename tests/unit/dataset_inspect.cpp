@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "support/catch.hpp"
+
+#include "ism/dataset/inspect.hpp"
+
+namespace inspected {
+namespace {
+
+// an image of 100×80 pixels with one labelled box, and a depth of `depth_m` everywhere
+ism::DatasetImage image_with(const ism::Box& box) {
+    ism::DatasetImage image{.id = 1, .file = "a.png", .width = 100, .height = 80, .depth_scale = 0.001};
+    image.objects.push_back({.id = 1, .box = box});
+    return image;
+}
+ism::Frame frame_of(float depth_m = 0) {
+    ism::Frame frame{.gray = ism::GrayImage(100, 80), .color = ism::RgbImage(100, 80)};
+    if (depth_m > 0) frame.depth_m = ism::DepthMap(100, 80, depth_m);
+    return frame;
+}
+ism::CompressedRle filled(int x0, int y0, int x1, int y1) {
+    ism::Mask mask(100, 80);
+    for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x) mask(x, y) = 1;
+    return ism::compress_mask(mask);
+}
+std::vector<std::string> kinds_of(const ism::DatasetImage& image, const ism::Frame& frame) {
+    std::vector<std::string> kinds;
+    for (const ism::Remark& remark : ism::inspect_image(image, frame).remarks) kinds.push_back(remark.kind);
+    return kinds;
+}
+using Kinds = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("A sound label gives facts and no remark") {
+    ism::DatasetImage image = image_with({20, 10, 40, 40});
+    image.objects[0].segmentation = filled(20, 10, 60, 50);
+    ism::Frame frame = frame_of(0.7f);
+    for (int x = 20; x < 30; ++x)
+        for (int y = 10; y < 50; ++y) frame.depth_m(x, y) = ism::no_depth;
+    const ism::ImageFacts facts = ism::inspect_image(image, frame);
+    CHECK(facts.remarks.empty());
+    REQUIRE(facts.objects.size() == 1);
+    CHECK(facts.objects[0].size_px == 40);
+    CHECK(facts.objects[0].masked);
+    CHECK(facts.objects[0].depth_share == 0.75);
+    CHECK(facts.objects[0].depth_m == Approx(0.7));
+    CHECK(facts.depth_share == Approx(0.95));
+}
+
+TEST_CASE("What looks wrong with a label is remarked") {
+    CHECK(kinds_of(image_with({20, 10, 40, 6}), frame_of()) == Kinds{"tiny box"});
+    CHECK(kinds_of(image_with({80, 10, 40, 40}), frame_of()) == Kinds{"box outside the image"});
+    ism::DatasetImage image = image_with({20, 10, 40, 40});
+    image.objects[0].segmentation = filled(40, 10, 80, 50);
+    CHECK(kinds_of(image, frame_of()) == Kinds{"mask outside its box"});
+    image.objects[0].segmentation = filled(20, 10, 30, 50);
+    CHECK(kinds_of(image, frame_of()) == Kinds{"box much larger than its mask"});
+    image.objects[0].segmentation = filled(0, 0, 0, 0);
+    CHECK(kinds_of(image, frame_of()) == Kinds{"bad mask"});
+    image = image_with({20, 10, 40, 40});
+    image.objects.push_back(image.objects[0]);
+    CHECK(kinds_of(image, frame_of()) == Kinds{"labelled twice"});
+    image.objects[1].class_index = 1;
+    CHECK(kinds_of(image, frame_of()).empty());
+    image.objects[1] = {.id = 2, .box = {1, 1, 2, 2}, .crowd = true};
+    CHECK(kinds_of(image, frame_of()).empty());
+}
+
+TEST_CASE("A depth scale that puts objects far away, and depth that lacks them, are remarked") {
+    const ism::DatasetImage image = image_with({20, 10, 40, 40});
+    CHECK(kinds_of(image, frame_of(500)) == Kinds{"depth scale"});
+    CHECK(kinds_of(image, frame_of(0.0007f)) == Kinds{"depth scale"});
+    ism::Frame frame = frame_of(0.7f);
+    for (float& depth_m : frame.depth_m.pixels()) depth_m = ism::no_depth;
+    frame.depth_m(0, 0) = 0.7f;
+    CHECK(kinds_of(image, frame) == Kinds{"little depth"});
+}
+
+TEST_CASE("Pictures have the same fingerprint where all pixels are the same") {
+    ism::Frame frame = frame_of();
+    const auto before = ism::inspect_image(image_with({20, 10, 40, 40}), frame).fingerprint;
+    CHECK(ism::inspect_image(image_with({1, 2, 30, 30}), frame).fingerprint == before);
+    frame.color(99, 79).b = 1;
+    CHECK(ism::inspect_image(image_with({20, 10, 40, 40}), frame).fingerprint != before);
+}
+
+}  // namespace inspected
