@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The ism authors
+# SPDX-License-Identifier: MIT
+source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
+
+# Every page that the program writes: complete, small, with words for what is shown.
+make_toys
+model=toys/model.safetensors
+"$ism" detect --model $model --data toys/test.json -o found.json --report detect.html >/dev/null
+"$ism" detect --model $model toys/test/test-0000.png -o one.json --report one.html --min-score 0 >/dev/null
+"$ism" detect --model $model --data toys/test.json -o found.json --report "linked #1.html" --report-images link >/dev/null
+"$ism" inspect --data toys/train.json --report inspect.html >inspect.txt
+"$ism" info $model --report info.html --data toys/train.json >info.txt
+"$ism" info $model --report plain.html >/dev/null
+cp toys/report.html demo.html
+for page in demo detect one "linked #1" inspect info plain; do
+    page+=.html
+    (($(wc -c <"$page") < 1000000)) || fail "$page: $(wc -c <"$page") bytes"
+    ! grep -qE '<script|url\(|https?://[^w]|(src|href)="(/|file:|http)' "$page" || fail "$page needs other files"
+    says 'name="viewport"' "$page"
+    says "prefers-color-scheme: dark" "$page"
+    ! grep -E '<svg viewBox' "$page" | grep -qvE 'role="img" aria-label="[^"]' || fail "$page: a figure without words"
+done
+says 'href="linked%20%231-images/1.jpg"' "linked #1.html"
+! grep -q 'base64' "linked #1.html" || fail "linked pictures are in the page"
+[[ -s "linked #1-images/1.jpg" ]] || fail "linked pictures are not beside the page"
+for text in "labelled object" "Mistakes: " "Precision and recall" "mean"; do says "$text" detect.html; done
+says "as it was seen" info.html
+! grep -q "as it was seen" plain.html || fail "words are shown without a data set"
+for text in "images          " "car  " "size px"; do says "$text" inspect.txt; done
+refused_in_a_line "expected an existing folder to write to, got none" \
+    "$ism" inspect --data toys/train.json --report nowhere/out.html
+refused_in_a_line "expected another file than an input, got one" "$ism" info $model --report $model
+refused "--report" "$ism" info $model --data toys/train.json
+
+# What looks wrong in a data set is told; a class's name is text in any script, and never markup.
+sed -E 's/"depth_scale":0\.001/"depth_scale":1/; s/"name":"duck"/"name":"<b>\&鸭 بطة"/' toys/train.json >toys/odd.json
+"$ism" inspect --data toys/odd.json --report odd.html >odd.txt
+says "m away; depth_scale is 1 m per unit" odd.txt
+says "&lt;b&gt;&amp;鸭 بطة" odd.html
+! grep -q '<b>' odd.html || fail "odd.html: a name became markup"
+
+# In a browser, on a phone and on a desk: nothing is wider than the screen, nothing is complained of.
+browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
+if [[ -z $browser ]]; then
+    echo "skipped: pages in a browser: no chromium (scripts/install_dependencies pages)"
+    exit 77
+fi
+# widths <page...>: "page screen widest" for each page and screen, told by a script in its copy; complaints in console.txt
+widths() {
+    local page number=0 frames=""
+    for page in "$@"; do
+        for screen in 390 1280; do
+            cp "$page" "copy-$number.html"
+            cat >>"copy-$number.html" <<END
+<script>
+for (const part of document.querySelectorAll("details")) part.open = true;
+addEventListener("load", () => parent.postMessage(
+    ["${page%% *}", $screen, document.documentElement.scrollWidth].join(" "), "*"));
+</script>
+END
+            frames+="<iframe src=\"copy-$number.html\" style=\"width:${screen}px;height:800px;border:0\"></iframe>"
+            number=$((number + 1))
+        done
+    done
+    {
+        echo '<!DOCTYPE html><meta charset="utf-8"><link rel="icon" href="data:,"><pre></pre><script>'
+        echo 'addEventListener("message", e => document.querySelector("pre").textContent += e.data + "\n")</script>'
+        echo "$frames"
+    } >frames.html
+    "$browser" --headless --no-sandbox --disable-gpu --user-data-dir="$PWD/browser" --hide-scrollbars --enable-logging=stderr \
+        --virtual-time-budget=20000 --dump-dom "file://$PWD/frames.html" 2>browser.err | sed -n '/<pre>/,/<\/pre>/p' |
+        grep -oE '[a-z]+[^ >]* (390|1280) [0-9]+'
+    grep CONSOLE browser.err >console.txt || true
+}
+# what is wrong is noticed
+printf '<!DOCTYPE html><p style="width:2000px">wide<script>console.error("wrong")</script>' >wide.html
+[[ $(widths wide.html) == 'wide.html 390 20'* ]] || fail "a wide page is not noticed: $(widths wide.html)"
+grep -q wrong console.txt || fail "a complaint is not noticed"
+widths demo.html detect.html one.html "linked #1.html" inspect.html info.html plain.html odd.html >widths.txt
+(($(wc -l <widths.txt) == 16)) || fail "expected 8 pages on 2 screens, got: $(cat widths.txt browser.err)"
+while read -r page screen widest; do
+    ((widest <= screen)) || fail "$page is $widest pixels wide on a screen of $screen"
+done <widths.txt
+[[ ! -s console.txt ]] || fail "the browser complains: $(cat console.txt)"
