@@ -37,7 +37,9 @@ int main() try {
                     vote.weight, feature.x, feature.y, vote.word, occurrence.x, occurrence.y,
                     model.shapes.objects[occurrence.object].image.c_str());
     }
-    ism::write_png("why.png", ism::draw_explanation(scene.color, found, 0, model.shapes.class_names));
+    const ism::Font font = ism::system_font(model.shapes.class_names);
+    ism::write_png("why.png",
+                   ism::draw_explanation(scene.color, found, 0, model.shapes.class_names, {.font = &font}));
     std::printf("wrote why.png\n");
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -188,7 +188,7 @@ void run_demo(const DemoCommand& command) {
     const double train_seconds = train_watch.seconds();
 
     const std::size_t count = set.test.images.size();
-    const OverlayFiles overlays(folder / "overlays", set.test);
+    const OverlayFiles overlays(folder / "overlays", set.test, shapes.class_names);
     std::vector<SceneOutcome> scenes(count);
     std::vector<std::vector<ism::Result>> told(count);  // what the page shows
     ism::ThreadPool pool(command.threads);

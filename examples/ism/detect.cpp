@@ -234,7 +234,7 @@ void run_detect(const DetectCommand& command) {
     doubts.tell();
     std::optional<OverlayFiles> overlays;
     if (!command.overlay_folder.empty()) {
-        overlays.emplace(command.overlay_folder, dataset);
+        overlays.emplace(command.overlay_folder, dataset, shapes.class_names);
         make_folder(command.overlay_folder);
     }
 

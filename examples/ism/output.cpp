@@ -3,6 +3,7 @@
 #include "output.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <set>
 
 #include "ism/io/png.hpp"
@@ -23,7 +24,17 @@ std::vector<std::string> files_of(const std::string& stem) {
 
 }  // namespace
 
-OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset) : folder_(std::move(folder)) {
+OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset,
+                           std::span<const std::string> class_names)
+    : folder_(std::move(folder)), font_(ism::system_font(class_names)) {
+    const auto missing = std::find_if(class_names.begin(), class_names.end(),
+                                      [&](const std::string& name) { return !font_.covers(name); });
+    if (font_.empty())
+        std::fputs("ism: no font was found: pictures are without words (Debian: fonts-dejavu-core)\n",
+                   stderr);
+    else if (missing != class_names.end())
+        std::fprintf(stderr, "ism: no font was found for all letters of class '%s'\n",
+                     ism::one_line(*missing).c_str());
     std::set<fs::path> inputs;
     for (const ism::DatasetImage& image : dataset.images)
         for (const fs::path& file : {image.file, image.depth_file})
@@ -50,9 +61,11 @@ OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset) : folde
 void OverlayFiles::write(std::size_t i, const ism::RgbImage& image, const ism::Detections& detections,
                          std::span<const std::string> class_names) const {
     const auto files = files_of(stems_[i]);
-    ism::write_png(folder_ / files[0], ism::draw_detections(image, detections, class_names));
+    const ism::OverlayOptions options{.font = &font_};
+    ism::write_png(folder_ / files[0], ism::draw_detections(image, detections, class_names, options));
     for (std::size_t row = 0; row < std::min(rows, detections.objects.size()); ++row)
-        ism::write_png(folder_ / files[row + 1], ism::draw_explanation(image, detections, row, class_names));
+        ism::write_png(folder_ / files[row + 1],
+                       ism::draw_explanation(image, detections, row, class_names, options));
 }
 
 }  // namespace program

@@ -4,14 +4,14 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "ism/core/image.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/detect/detection.hpp"
-#include "ism/show/report.hpp"
+#include "ism/show/font.hpp"
 
 namespace program {
 
@@ -23,7 +23,9 @@ public:
     /// Chooses file names in `folder` that are all different: the image's name without its ending, with a
     /// number where that is taken.
     /// @throws ism::FileError where a name is that of an image of the data set.
-    OverlayFiles(std::filesystem::path folder, const ism::Dataset& dataset);
+    /// Tells on stderr where no font of the system has the letters of the class names.
+    OverlayFiles(std::filesystem::path folder, const ism::Dataset& dataset,
+                 std::span<const std::string> class_names);
 
     /// Writes those of image i.
     void write(std::size_t i, const ism::RgbImage& image, const ism::Detections& detections,
@@ -32,6 +34,7 @@ public:
 private:
     std::filesystem::path folder_;
     std::vector<std::string> stems_;
+    ism::Font font_;
 };
 
 }  // namespace program

@@ -14,7 +14,6 @@
 #include "ism/core/random.hpp"
 #include "ism/show/draw.hpp"
 #include "ism/show/draw_mask.hpp"
-#include "ism/show/font.hpp"
 
 using ism::Point2;
 using ism::Rgb;
@@ -115,8 +114,6 @@ TEST_CASE("Nothing is drawn outside the image, and nothing that is not finite") 
         ism::fill_disc(part, {a, b}, c, ism::white, 0.5);
         ism::draw_box(part, {a, b, c, d}, pen);
         ism::fill_box(part, {a, b, c, d}, ism::white, 0.5);
-        ism::draw_text(part, int(random.uniform(-40, 60)), int(random.uniform(-40, 60)), "gj@\xC3\xA9",
-                       ism::white, 1 + int(random.index(4)));
     }
     for (int y = 0; y < whole.height(); ++y)
         for (int x = 0; x < whole.width(); ++x)
@@ -128,79 +125,4 @@ TEST_CASE("Nothing is drawn outside the image, and nothing that is not finite") 
     ism::fill_box(nothing, {1, 1, std::numeric_limits<double>::infinity(), 3}, ism::white);
     CHECK(painted(nothing) == 0);
     ism::draw_line(RgbImage{}, {0, 0}, {4, 4}, {});
-}
-
-TEST_CASE("Every letter differs from every other and all but the blank have ink") {
-    std::set<std::string> shapes;
-    for (char letter = ' '; letter <= '~'; ++letter) {
-        std::string shape;
-        for (int y = 0; y < 9; ++y)
-            for (int x = 0; x < 5; ++x) shape += ism::font_ink(letter, x, y) ? '#' : '.';
-        CHECK(shapes.insert(shape).second);
-        CHECK((letter == ' ') == (shape.find('#') == std::string::npos));
-    }
-    const std::array<std::string, 7> capital_t{"#####", "..#..", "..#..", "..#..", "..#..", "..#..", "..#.."};
-    for (int y = 0; y < 7; ++y)
-        for (int x = 0; x < 5; ++x)
-            CHECK(ism::font_ink('T', x, y) == (capital_t[std::size_t(y)][std::size_t(x)] == '#'));
-}
-
-TEST_CASE("Text is as wide as it says") {
-    CHECK(ism::text_width("") == 0);
-    CHECK(ism::text_width("HH", 3) == 33);
-    RgbImage image(60, 40);
-    ism::draw_text(image, 5, 4, "HH", ism::white, 3);
-    int left = 60, right = -1, top = 40, bottom = -1;
-    for (int y = 0; y < 40; ++y)
-        for (int x = 0; x < 60; ++x)
-            if (image(x, y) == ism::white)
-                left = std::min(left, x), right = std::max(right, x), top = std::min(top, y),
-                bottom = std::max(bottom, y);
-    CHECK(std::tuple(left, right, top, bottom) == std::tuple(5, 5 + 32, 4, 4 + 20));
-}
-
-TEST_CASE("Masks tint their figure, and contours are the figure pixels next to ground") {
-    ism::Mask mask(9, 7);
-    for (int y = 1; y < 6; ++y)
-        for (int x = 0; x < 5; ++x) mask(x, y) = 1;
-    RgbImage tinted(9, 7);
-    ism::blend_mask(tinted, mask, ism::white, 0.4);
-    CHECK(painted(tinted) == 25);
-    CHECK(tinted(2, 2).r == 102);
-    RgbImage contour(9, 7);
-    ism::draw_contour(contour, mask, ism::white);
-    CHECK(painted(contour) == 16);
-    CHECK(contour(0, 3) == ism::white);
-    CHECK(contour(2, 3) == Rgb{});
-    RgbImage other(7, 9);
-    CHECK_THROWS_AS(ism::blend_mask(other, mask, ism::white, 1), ism::Error);
-    CHECK_THROWS_AS(ism::draw_contour(other, mask, ism::white), ism::Error);
-}
-
-TEST_CASE("Colour maps grow brighter with the value and class colours differ") {
-    for (int i = 1; i <= 100; ++i)
-        CHECK(ism::brightness(ism::heat_color(i / 100.0)) >
-              ism::brightness(ism::heat_color((i - 1) / 100.0)));
-    CHECK(ism::heat_color(std::nan("")) == ism::heat_color(0));
-    CHECK(ism::heat_color(7) == ism::heat_color(1));
-    CHECK(ism::grey_color(1) == ism::white);
-    std::set<std::tuple<int, int, int>> colors;
-    for (std::size_t i = 0; i < 100; ++i) {
-        const Rgb c = ism::class_color(i);
-        colors.insert({c.r, c.g, c.b});
-    }
-    CHECK(colors.size() == 100);
-}
-
-TEST_CASE("Magnifying keeps what is even and the mean, and lies between its neighbours") {
-    RgbImage image(3, 1);
-    image(1, 0) = {90, 90, 90}, image(2, 0) = {200, 0, 0};
-    CHECK(ism::magnified(image, 1) == image);
-    const RgbImage large = ism::magnified(image, 3);
-    CHECK(large.width() == 9);
-    CHECK(large.height() == 3);
-    CHECK(large(1, 1) == image(0, 0));
-    CHECK(large(4, 1) == image(1, 0));
-    CHECK(large(2, 0) == Rgb{30, 30, 30});
-    CHECK_THROWS_AS(ism::magnified(image, 0), ism::Error);
 }

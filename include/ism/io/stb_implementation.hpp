@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 /// @file
-/// @brief Compiles the image file library stb (stb_image, stb_image_write). Include it in exactly one .cpp of
-/// a program that reads or writes images; all other files include "ism/io/images.hpp" alone. A program that
-/// compiles stb already leaves this header out.
+/// @brief Compiles the libraries stb_image, stb_image_write and stb_truetype (words in pictures,
+/// show/font.hpp). Include it in exactly one .cpp of a program that reads or writes images; all other files
+/// include "ism/io/images.hpp" alone. A program that compiles stb already leaves this header out.
 #pragma once
 
 #if defined(__GNUC__)
@@ -28,17 +28,21 @@
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_TRUETYPE_IMPLEMENTATION
 #if __has_include(<stb/stb_image.h>)
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
+#include <stb/stb_truetype.h>
 #else
 #include <stb_image.h>
 #include <stb_image_write.h>
+#include <stb_truetype.h>
 
 #include "ism/config.hpp"
 #endif
 #undef STB_IMAGE_IMPLEMENTATION
 #undef STB_IMAGE_WRITE_IMPLEMENTATION
+#undef STB_TRUETYPE_IMPLEMENTATION
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop

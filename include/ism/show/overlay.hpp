@@ -22,19 +22,20 @@ struct OverlayOptions {
     bool close_up = true;      ///< rows show a detection and its surroundings instead of the whole image
     double circle_scales = 3;  ///< radius of a feature's circle in multiples of its scale
     bool cells = true;         ///< rows also show what a template saw, where a detection tells it
+    const Font* font = nullptr;  ///< of names and captions, such as system_font(); none = without words
 };
 
 namespace detail {
 
-/// The panels side by side on white, each under its caption.
+/// The panels side by side on white, each under its caption where there is a font.
 [[nodiscard]] inline RgbImage captioned_row(std::span<const RgbImage> panels,
-                                            std::span<const std::string> captions) {
-    const int width = panels[0].width(), height = panels[0].height(), size = letter_size(width);
-    const int gap = 4 * size, head = (font_height + 5) * size;
+                                            std::span<const std::string> captions, const Font& font) {
+    const int width = panels[0].width(), height = panels[0].height(), line = words_px(width);
+    const int gap = 4 * pen_px(width), head = font.empty() ? 0 : line + 4;
     RgbImage row(int(panels.size()) * (width + gap) - gap, head + height, white);
     for (std::size_t i = 0; i < panels.size(); ++i) {
         const int x0 = int(i) * (width + gap);
-        draw_text(row.view().region(x0, 0, width, head), 0, 2 * size, captions[i], {40, 40, 48}, size);
+        font.draw(row.view().region(x0, 0, width, head), 0, 1, captions[i], {40, 40, 48}, line);
         for (int y = 0; y < height; ++y)
             std::copy_n(panels[i].row(y).begin(), width, row.row(head + y).begin() + x0);
     }
@@ -45,6 +46,8 @@ namespace detail {
 [[nodiscard]] inline RgbImage panel_row(ImageView<const Rgb> image, const Detections& detections,
                                         const Detection& detection, std::span<const std::string> class_names,
                                         const OverlayOptions& options) {
+    const Font nothing;
+    const Font& font = options.font ? *options.font : nothing;
     const Segmentation& part = detection.segmentation;
     detail::check_segmentation(part);
     const int factor = detail::magnification(image, options.side_px);
@@ -52,14 +55,15 @@ namespace detail {
     const Rgb color = class_color(detection.class_index);
     const RgbImage large = magnified(image, factor);
     const Box box = detail::magnified(detection.box, factor);
-    const double pen = detail::letter_size(large.width());
+    const double pen = detail::pen_px(large.width());
 
     RgbImage votes = large;
     for (Rgb& pixel : votes.pixels()) pixel = mix(pixel, black, 0.4);
     detail::draw_support(votes, detections, detection, color, options.circle_scales, factor);
     draw_box(votes, box, {color, pen});
     std::vector<Box> used;
-    detail::draw_label(votes, box, detail::label_text(detection, class_names), color, used);
+    const std::string label = detail::label_text(detection, class_names);
+    if (!font.empty()) detail::draw_label(votes, box, label, color, font, used);
 
     float top = 0;
     for (const GrayImage* map : {&part.figure, &part.ground})
@@ -88,10 +92,10 @@ namespace detail {
         panels.insert(panels.begin() + 1, cells_panel(large, detection.cells, box));
         captions.insert(captions.begin() + 1, "template");
     }
-    RgbImage row = captioned_row(panels, captions);
-    if (cells)
+    RgbImage row = captioned_row(panels, captions, font);
+    if (cells && !font.empty())
         draw_cells_legend(row.view().region(large.width() + 4 * int(pen), 0, large.width(), row.height()),
-                          captions[1], int(pen));
+                          captions[1], font, words_px(large.width()));
     return row;
 }
 
@@ -125,7 +129,7 @@ namespace detail {
                                               const OverlayOptions& options = {}) {
     const int factor = detail::magnification(image, options.side_px);
     RgbImage result = magnified(image, factor);
-    const int pen = detail::letter_size(result.width());
+    const int pen = detail::pen_px(result.width());
     for (std::size_t i = detections.objects.size(); i-- > 0;) {
         const Detection& detection = detections.objects[i];
         const Mask mask =
@@ -136,10 +140,12 @@ namespace detail {
         draw_box(result, detail::magnified(detection.box, factor), {color, double(pen), 0.9});
     }
     std::vector<Box> used;
-    for (const Detection& detection : detections.objects)
-        detail::draw_label(result, detail::magnified(detection.box, factor),
-                           detail::label_text(detection, class_names), class_color(detection.class_index),
-                           used);
+    for (const Detection& detection : detections.objects) {
+        const std::string label = detail::label_text(detection, class_names);
+        if (options.font)
+            detail::draw_label(result, detail::magnified(detection.box, factor), label,
+                               class_color(detection.class_index), *options.font, used);
+    }
     return result;
 }
 

@@ -27,9 +27,12 @@ namespace ism::detail {
     return std::clamp(side_px / std::max(image.width(), image.height()), 1, 16);
 }
 
-/// How large letters are in an image of this width.
-[[nodiscard]] inline int letter_size(int width_px) {
+/// How wide lines are, and how high those of words, in an image of this width.
+[[nodiscard]] inline int pen_px(int width_px) {
     return width_px >= 320 ? 2 : 1;
+}
+[[nodiscard]] inline int words_px(int width_px) {
+    return width_px >= 320 ? 19 : 13;
 }
 
 /// Where a point and a box of the image lie in the magnified one.
@@ -49,9 +52,9 @@ namespace ism::detail {
 /// Writes a label at a box: above it, or where that place is outside the image or `used` already, inside
 /// its upper edge or below it. Adds the place to `used`.
 inline void draw_label(ImageView<Rgb> image, const Box& box, const std::string& text, Rgb color,
-                       std::vector<Box>& used) {
-    const int size = letter_size(image.width());
-    const double width = text_width(text, size) + 4 * size, height = (font_height + 3) * size;
+                       const Font& font, std::vector<Box>& used) {
+    const double line = words_px(image.width()), width = std::ceil(font.width(text, line)) + line / 2;
+    const double height = line + 1;
     const Box page{0, 0, double(image.width()), double(image.height())};
     const double x = std::clamp(box.x, 0.0, std::max(0.0, page.width - width));
     Box place{x, std::clamp(box.y, 0.0, std::max(0.0, page.height - height)), width, height};
@@ -66,14 +69,14 @@ inline void draw_label(ImageView<Rgb> image, const Box& box, const std::string& 
     place.x = std::round(place.x), place.y = std::round(place.y);
     used.push_back(place);
     fill_box(image, place, color);
-    draw_text(image, int(place.x) + 2 * size, int(place.y) + 3 * size / 2, text, ink_on(color), size);
+    font.draw(image, place.x + line / 4, place.y, text, ink_on(color), line);
 }
 
 /// The features that vote for a detection as circles (radius: `circle_scales` times their scale), each with a
 /// line to the centre; the stronger the vote, the clearer the line.
 inline void draw_support(ImageView<Rgb> image, const Detections& detections, const Detection& detection,
                          Rgb color, double circle_scales, int factor) {
-    const double pen = letter_size(image.width());
+    const double pen = pen_px(image.width());
     const std::vector<FeatureWeight> weights = feature_weights(detections, detection);
     const double strongest = weights.empty() ? 1 : weights.back().weight;
     const Point2 centre = magnified(detection.centre, factor);
@@ -92,27 +95,6 @@ inline void draw_support(ImageView<Rgb> image, const Detections& detections, con
         }
     fill_disc(image, centre, 3.5 * pen, black);
     fill_disc(image, centre, 2.5 * pen, mix(color, white, 0.3));
-}
-
-/// The sizes of a segmentation's parts, which must be one.
-inline void check_segmentation(const Segmentation& part) {
-    for (const GrayImage* map : {&part.figure, &part.ground})
-        expect(map->width() == part.mask.width() && map->height() == part.mask.height(),
-               "probability map size", size_text(part.mask), size_text(*map));
-}
-
-/// A map of a segmentation as colours over the whole image; `top` is the brightest value.
-template <std::invocable<double> Colors>
-[[nodiscard]] RgbImage map_panel(const Segmentation& part, const GrayImage& map, double top, int width,
-                                 int height, int factor, const Colors& color_of) {
-    RgbImage panel(width * factor, height * factor, color_of(0.0));
-    for (int y = 0; y < panel.height(); ++y)
-        for (int x = 0; x < panel.width(); ++x) {
-            const double u = (x + 0.5) / factor - 0.5 - part.x, v = (y + 0.5) / factor - 0.5 - part.y;
-            if (top > 0 && u > -0.5 && v > -0.5 && u < map.width() - 0.5 && v < map.height() - 0.5)
-                panel(x, y) = color_of(double(sample_bilinear(map, float(u), float(v))) / top);
-        }
-    return panel;
 }
 
 }  // namespace ism::detail

@@ -13,9 +13,10 @@
 #include <vector>
 
 #include "ism/detect/detection.hpp"
+#include "ism/show/color.hpp"
+#include "ism/show/explanation_maps.hpp"
 #include "ism/show/feature_weights.hpp"
 #include "ism/show/mask_path.hpp"
-#include "ism/show/overlay_cells.hpp"
 #include "ism/show/overlay_close_up.hpp"
 #include "ism/show/report_picture.hpp"
 
