@@ -118,8 +118,11 @@ std::vector<std::vector<std::string>> table_of(std::span<const SpaceOutcome> out
 }
 
 ism::Plot plot_of(std::span<const SpaceOutcome> outcomes) {
-    ism::Plot plot{
-        .title = "Toy scenes (synthetic), all classes together", .x_label = "recall", .y_label = "precision"};
+    ism::Plot plot{.title = "Toy scenes (synthetic), all classes",
+                   .x_label = "recall",
+                   .y_label = "precision",
+                   .width_px = 380,
+                   .height_px = 320};
     for (std::size_t s = 0; s < outcomes.size(); ++s) {
         ism::PlotCurve curve{.name = std::string(space_names[s]), .color = ism::class_color(s)};
         for (const ism::PrecisionRecallPoint& point : outcomes[s].curve.points) {
@@ -143,7 +146,7 @@ ism::ReportSection lesson_section(const ism::Dataset& train) {
         gallery.figures.push_back(ism::picture_figure(
             ism::report_picture(ism::read_rgb(image->file), {.side_px = 320, .most_bytes = 16000}),
             train.class_names[c]));
-        gallery.figures.back().width_px = 240;
+        gallery.figures.back().width_px = 165;
     }
     ism::ReportSection section{.title = "Learnt from pictures like these"};
     section.parts.push_back(std::move(gallery));
