@@ -222,7 +222,7 @@ void run_demo(const DemoCommand& command) {
         progress.step("detecting in five vote spaces", count);
     });
 
-    DetectPage page(set.test, told, shapes.class_names, report_scenes);
+    DetectPage page(set.test, told, shapes.class_names, short_names(set.test), report_scenes);
     pool.for_each(page.images().size(), [&](std::size_t k, unsigned worker) {
         const ism::DatasetImage& image = set.test.images[page.images()[k]];
         const ism::Frame frame = ism::read_frame(image);

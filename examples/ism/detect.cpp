@@ -238,6 +238,7 @@ void run_detect(const DetectCommand& command) {
         make_folder(command.overlay_folder);
     }
 
+    const ism::Font font = command.show ? overlay_font(shapes.class_names) : ism::Font();
     const std::size_t count = dataset.images.size();
     const auto name_of = [&](const ism::DatasetImage& image) {
         return pictures ? list.images()[std::size_t(image.id) - 1].name : short_name(dataset, image);
@@ -284,14 +285,16 @@ void run_detect(const DetectCommand& command) {
             if (overlays) overlays->write(i, frame.color, found, shapes.class_names);
             if (command.show)
                 ism::write_png(shown[std::size_t(image.id) - 1],
-                               ism::draw_detections(frame.color, found, shapes.class_names));
+                               ism::draw_detections(frame.color, found, shapes.class_names, {.font = &font}));
             progress.step("detecting", count);
         });
         search_seconds = search_watch.seconds();
 
         // The images that the report shows are looked at once more, to be explained.
         if (!command.report.empty()) {
-            page.emplace(dataset, results, shapes.class_names, report_images);
+            std::vector<std::string> names;
+            for (const ism::DatasetImage& image : dataset.images) names.push_back(name_of(image));
+            page.emplace(dataset, results, shapes.class_names, std::move(names), report_images);
             pool.for_each(page->images().size(), [&](std::size_t k, unsigned worker) {
                 const ism::DatasetImage& image = dataset.images[page->images()[k]];
                 const ism::Frame own = only ? ism::Frame() : ism::read_frame(image, read_picture);

@@ -6,8 +6,6 @@
 #include <iterator>
 #include <numeric>
 
-#include "input.hpp"
-
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 
@@ -51,15 +49,13 @@ ism::ReportSection figures_section(const ism::Dataset& dataset, std::span<const 
 
 }  // namespace
 
-std::string page_name(const ism::Dataset& dataset, const ism::DatasetImage& image) {
-    return dataset.source.empty() ? ism::path_to_utf8(image.file.filename()) : short_name(dataset, image);
-}
-
 DetectPage::DetectPage(const ism::Dataset& dataset, const std::vector<std::vector<ism::Result>>& results,
-                       std::span<const std::string> class_names, std::size_t most)
+                       std::span<const std::string> class_names, std::vector<std::string> image_names,
+                       std::size_t most)
     : dataset_(dataset),
       results_(results),
       names_(class_names.begin(), class_names.end()),
+      image_names_(std::move(image_names)),
       images_(results.size()) {
     const bool labelled = std::any_of(dataset.images.begin(), dataset.images.end(),
                                       [](const auto& image) { return !image.objects.empty(); });
@@ -102,7 +98,7 @@ void DetectPage::add(std::size_t k, const ism::RgbImage& picture, ism::Detection
         for (const bool wrong : mistakes.wrong_results)
             judged.push_back(wrong ? ism::Judged::wrong : ism::Judged::right);
     }
-    pages_[k] = ism::detection_pages(page_name(dataset_, image), picture, detections, names_,
+    pages_[k] = ism::detection_pages(image_names_[i], picture, detections, names_,
                                      {.rows = rows,
                                       .picture = picture_options(options, images_.size()),
                                       .labels = labels,
@@ -152,8 +148,7 @@ ism::Report DetectPage::report(std::string title,
             ism::ReportSection others{.title = "All images in words", .folded = true};
             ism::ReportTable table{.header = {"image", "labelled", "found", "mistakes"}};
             for (std::size_t i = 0; i < std::min(results_.size(), most_named); ++i)
-                table.rows.push_back({page_name(dataset_, dataset_.images[i]),
-                                      std::to_string(dataset_.images[i].objects.size()),
+                table.rows.push_back({image_names_[i], std::to_string(dataset_.images[i].objects.size()),
                                       std::to_string(results_[i].size()),
                                       labelled ? mistakes_[i].text() : ""});
             others.parts.push_back(std::move(table));

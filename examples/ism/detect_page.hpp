@@ -20,8 +20,10 @@ class DetectPage {
 public:
     /// Chooses the images that are shown, at most `most`: those with the worst mistakes, else the first ones.
     /// @param results  of each image
+    /// @param image_names  of each image, as they are told
     DetectPage(const ism::Dataset& dataset, const std::vector<std::vector<ism::Result>>& results,
-               std::span<const std::string> class_names, std::size_t most);
+               std::span<const std::string> class_names, std::vector<std::string> image_names,
+               std::size_t most);
 
     /// Numbers of the images that are shown.
     [[nodiscard]] const std::vector<std::size_t>& images() const { return images_; }
@@ -40,12 +42,10 @@ private:
     const ism::Dataset& dataset_;
     const std::vector<std::vector<ism::Result>>& results_;
     std::vector<std::string> names_;  // of the model's classes, then of others in labels
+    std::vector<std::string> image_names_;
     std::vector<std::size_t> images_;
     std::vector<Mistakes> mistakes_;  // of all images; none without labels
     std::vector<ism::DetectionPages> pages_;
 };
-
-/// The name of an image in a page: short, or the file's alone where there is no data set.
-[[nodiscard]] std::string page_name(const ism::Dataset& dataset, const ism::DatasetImage& image);
 
 }  // namespace program

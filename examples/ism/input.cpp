@@ -61,6 +61,12 @@ void Doubts::tell() const {
     std::fprintf(stderr, "ism: note: %s\n", line.c_str());
 }
 
+std::vector<std::string> short_names(const ism::Dataset& dataset) {
+    std::vector<std::string> names;
+    for (const ism::DatasetImage& image : dataset.images) names.push_back(short_name(dataset, image));
+    return names;
+}
+
 std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
                          const std::function<void(ism::DatasetImage&)>& read) {
     const std::size_t count = dataset.images.size();

@@ -32,6 +32,8 @@ template <class Texts>
 
 /// The name of an image as seen from its data set's folder.
 [[nodiscard]] std::string short_name(const ism::Dataset& dataset, const ism::DatasetImage& image);
+/// The names of all its images.
+[[nodiscard]] std::vector<std::string> short_names(const ism::Dataset& dataset);
 
 /// Names what is wrong on stderr, up to 20 lines and a count.
 /// @throws ism::Error where there is something and `skip_bad` is not given; what is alone wrong is its

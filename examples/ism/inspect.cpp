@@ -8,8 +8,8 @@
 #include <map>
 
 #include "commands.hpp"
-#include "detect_page.hpp"
 #include "input.hpp"
+#include "page.hpp"
 #include "progress.hpp"
 
 #include "ism/core/thread_pool.hpp"
@@ -64,8 +64,9 @@ Contents look(const ism::Dataset& dataset, unsigned threads) {
         if (facts.fingerprint != 0) {
             const auto [same, is_new] = first.emplace(facts.fingerprint, i);
             if (!is_new)
-                facts.remarks.push_back({.kind = "same picture twice",
-                                         .text = "also " + page_name(dataset, dataset.images[same->second])});
+                facts.remarks.push_back(
+                    {.kind = "same picture twice",
+                     .text = "also " + short_name(dataset, dataset.images[same->second])});
         }
         for (const ism::Remark& remark : facts.remarks) contents.by_kind[remark.kind].push_back({i, remark});
     }
@@ -204,7 +205,7 @@ ism::Report page_of(const ism::Dataset& dataset, const Contents& contents,
         ism::ReportGallery gallery;
         ism::ReportTable texts{.header = {"image", "what"}};
         for (const Placed& one : remarks) {
-            const std::string name = page_name(dataset, dataset.images[one.image]);
+            const std::string name = short_name(dataset, dataset.images[one.image]);
             if (texts.rows.size() < texts_a_kind) texts.rows.push_back({name, one.remark.text});
             if (kind == "file that cannot be used" || gallery.figures.size() >= crops_a_kind ||
                 crops >= most_faults)
@@ -236,7 +237,7 @@ ism::Report page_of(const ism::Dataset& dataset, const Contents& contents,
         for (std::size_t k = 0; k < shown; ++k) {  // evenly from all
             const Example& one = examples[c][k * examples[c].size() / shown];
             gallery.figures.push_back(crop_figure(dataset, one.image, one.facts.object,
-                                                  page_name(dataset, dataset.images[one.image])));
+                                                  short_name(dataset, dataset.images[one.image])));
         }
         if (shown > 0) section.parts.push_back(std::move(gallery));
         section.parts.push_back(ism::ReportPlot{size_plot(examples[c], ism::class_color(c))});
@@ -297,7 +298,7 @@ void run_inspect(const InspectCommand& command) {
         std::printf("  %s: %zu\n", kind.c_str(), list.size());
         for (std::size_t k = 0; k < std::min(most_told, list.size()); ++k)
             std::printf("    %s: %s\n",
-                        ism::one_line(page_name(dataset, dataset.images[list[k].image])).c_str(),
+                        ism::one_line(short_name(dataset, dataset.images[list[k].image])).c_str(),
                         ism::one_line(list[k].remark.text).c_str());
         if (list.size() > most_told) std::printf("    ... and %zu more\n", list.size() - most_told);
     }

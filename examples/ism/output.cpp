@@ -24,17 +24,22 @@ std::vector<std::string> files_of(const std::string& stem) {
 
 }  // namespace
 
-OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset,
-                           std::span<const std::string> class_names)
-    : folder_(std::move(folder)), font_(ism::system_font(class_names)) {
+ism::Font overlay_font(std::span<const std::string> class_names) {
+    ism::Font font = ism::system_font(class_names);
     const auto missing = std::find_if(class_names.begin(), class_names.end(),
-                                      [&](const std::string& name) { return !font_.covers(name); });
-    if (font_.empty())
+                                      [&](const std::string& name) { return !font.covers(name); });
+    if (font.empty())
         std::fputs("ism: no font was found: pictures are without words (Debian: fonts-dejavu-core)\n",
                    stderr);
     else if (missing != class_names.end())
         std::fprintf(stderr, "ism: no font was found for all letters of class '%s'\n",
                      ism::one_line(*missing).c_str());
+    return font;
+}
+
+OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset,
+                           std::span<const std::string> class_names)
+    : folder_(std::move(folder)), font_(overlay_font(class_names)) {
     std::set<fs::path> inputs;
     for (const ism::DatasetImage& image : dataset.images)
         for (const fs::path& file : {image.file, image.depth_file})

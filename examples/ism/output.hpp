@@ -15,6 +15,9 @@
 
 namespace program {
 
+/// A font of the system for the names of classes in pictures; what it lacks is told on stderr.
+[[nodiscard]] ism::Font overlay_font(std::span<const std::string> class_names);
+
 /// The images of detections: for each image one with all of them and a row of four for the strongest.
 class OverlayFiles {
 public:
@@ -23,7 +26,6 @@ public:
     /// Chooses file names in `folder` that are all different: the image's name without its ending, with a
     /// number where that is taken.
     /// @throws ism::FileError where a name is that of an image of the data set.
-    /// Tells on stderr where no font of the system has the letters of the class names.
     OverlayFiles(std::filesystem::path folder, const ism::Dataset& dataset,
                  std::span<const std::string> class_names);
 

@@ -30,7 +30,7 @@ std::string address_of(const fs::path& path) {
 
 ism::ReportPictureOptions picture_options(const PageOptions& options, std::size_t pictures) {
     if (options.link) return {.side_px = 1600, .most_bytes = 0};
-    constexpr std::size_t all_bytes = 420000;
+    constexpr std::size_t all_bytes = 380000;
     return {.side_px = 720,
             .most_bytes = std::min<std::size_t>(60000, all_bytes / std::max<std::size_t>(1, pictures))};
 }
