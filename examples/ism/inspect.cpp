@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
@@ -52,8 +53,12 @@ Contents look(const ism::Dataset& dataset, unsigned threads) {
             try {
                 contents.images[i] = ism::inspect_image(image, ism::read_frame(image));
             } catch (const ism::Error& error) {
-                contents.images[i].remarks.push_back(
-                    {.kind = "file that cannot be used", .text = error.what()});
+                ism::ImageFacts& facts = contents.images[i];
+                facts.remarks.push_back({.kind = "file that cannot be used", .text = error.what()});
+                for (std::size_t k = 0; k < image.objects.size(); ++k)  // what the label alone tells
+                    if (!image.objects[k].crowd)
+                        facts.objects.push_back(
+                            {.object = k, .size_px = std::sqrt(image.objects[k].box.area())});
             }
             progress.step("looking at images", dataset.images.size());
         });

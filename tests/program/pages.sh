@@ -34,9 +34,11 @@ refused_in_a_line "expected another file than an input, got one" "$ism" info $mo
 refused "--report" "$ism" info $model --data toys/train.json
 
 # What looks wrong in a data set is told; a class's name is text in any script, and never markup.
-sed -E 's/"depth_scale":0\.001/"depth_scale":1/; s/"name":"duck"/"name":"<b>\&鸭 بطة"/' toys/train.json >toys/odd.json
+sed -E 's/"depth_scale":0\.001/"depth_scale":0.03/; 0,/"depth_scale":0\.03/s//"depth_scale":1/; s/"name":"duck"/"name":"<b>\&鸭 بطة"/' toys/train.json >toys/odd.json
 "$ism" inspect --data toys/odd.json --report odd.html >odd.txt
-says "m away; depth_scale is 1 m per unit" odd.txt
+says "m away; depth_scale is 0.03 m per unit" odd.txt
+says "file that cannot be used: 1" odd.txt
+says "0.001 would make it" odd.txt
 says "&lt;b&gt;&amp;鸭 بطة" odd.html
 ! grep -q '<b>' odd.html || fail "odd.html: a name became markup"
 
@@ -70,12 +72,12 @@ END
     } >frames.html
     "$browser" --headless --no-sandbox --disable-gpu --user-data-dir="$PWD/browser" --hide-scrollbars --enable-logging=stderr \
         --virtual-time-budget=20000 --dump-dom "file://$PWD/frames.html" 2>browser.err | sed -n '/<pre>/,/<\/pre>/p' |
-        grep -oE '[a-z]+[^ >]* (390|1280) [0-9]+'
+        grep -oE '[a-z]+[^ >]* (390|1280) [0-9]+' | sort
     grep CONSOLE browser.err >console.txt || true
 }
 # what is wrong is noticed
 printf '<!DOCTYPE html><p style="width:2000px">wide<script>console.error("wrong")</script>' >wide.html
-[[ $(widths wide.html) == 'wide.html 390 20'* ]] || fail "a wide page is not noticed: $(widths wide.html)"
+[[ $(widths wide.html) == *'wide.html 390 20'* ]] || fail "a wide page is not noticed: $(widths wide.html)"
 grep -q wrong console.txt || fail "a complaint is not noticed"
 widths demo.html detect.html one.html "linked #1.html" inspect.html info.html plain.html odd.html >widths.txt
 (($(wc -l <widths.txt) == 16)) || fail "expected 8 pages on 2 screens, got: $(cat widths.txt browser.err)"
