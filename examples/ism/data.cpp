@@ -29,12 +29,16 @@ void leave_out_bad_masks(ism::Dataset& dataset, ism::Faults& faults) {
 
 }  // namespace
 
-ism::Dataset read_data(const std::filesystem::path& path, ism::DatasetPart part, bool skip_bad) {
-    ism::Faults faults;
+ism::Dataset read_labels(const std::filesystem::path& path, ism::DatasetPart part, ism::Faults& faults) {
     const ism::DatasetReadOptions options{.faults = &faults, .part = part, .image_size = read_image_size};
     const ism::DatasetPlace place = ism::find_dataset(path);
-    ism::Dataset dataset = place.format == ism::DatasetFormat::voc ? read_voc(place.path, options)
-                                                                   : ism::read_any_dataset(place, options);
+    return place.format == ism::DatasetFormat::voc ? read_voc(place.path, options)
+                                                   : ism::read_any_dataset(place, options);
+}
+
+ism::Dataset read_data(const std::filesystem::path& path, ism::DatasetPart part, bool skip_bad) {
+    ism::Faults faults;
+    ism::Dataset dataset = read_labels(path, part, faults);
     if (part == ism::DatasetPart::train) leave_out_bad_masks(dataset, faults);
     if (faults.size() == 1 && !skip_bad) throw ism::Error(faults[0] + " (--skip-bad goes on without it)");
     tell_faults(faults, "labels and images", skip_bad);

@@ -15,4 +15,8 @@ namespace program {
 /// @throws ism::Error where it cannot be read, or something makes no sense and `skip_bad` is not given.
 [[nodiscard]] ism::Dataset read_data(const std::filesystem::path& path, ism::DatasetPart part, bool skip_bad);
 
+/// The same, but tells what makes no sense only in `faults`, and leaves it out; masks are not looked at.
+[[nodiscard]] ism::Dataset read_labels(const std::filesystem::path& path, ism::DatasetPart part,
+                                       ism::Faults& faults);
+
 }  // namespace program

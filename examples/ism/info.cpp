@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "data.hpp"
 #include "info_page.hpp"
 #include "input.hpp"
 #include "page.hpp"
 
-#include "ism/dataset/coco.hpp"
 #include "ism/model_file/model_file.hpp"
 
 namespace program {
@@ -20,7 +20,7 @@ void run_info(const InfoCommand& command) {
     const ism::Model model = ism::load_model(path);
     if (!command.report.empty()) {
         std::optional<ism::Dataset> data;
-        if (!command.data.empty()) data = ism::read_dataset(command.data);
+        if (!command.data.empty()) data = read_data(command.data, ism::DatasetPart::train, true);
         write_page(
             command.report,
             model_report(model, "Model " + ism::path_to_utf8(path.filename()), data ? &*data : nullptr),

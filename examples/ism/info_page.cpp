@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "input.hpp"
+#include "pictures.hpp"
 
 #include "ism/evaluate/table.hpp"
 #include "ism/hog/hog_pyramid.hpp"
-#include "ism/io/images.hpp"
 #include "ism/model_file/model_file.hpp"
 #include "ism/show/report_explanation.hpp"
 
@@ -215,7 +215,8 @@ public:
     /// The picture of an image, read once.
     [[nodiscard]] const ism::RgbImage& picture(const ism::DatasetImage& image) {
         ism::RgbImage& picture = pictures_[&image];
-        if (picture.empty()) picture = ism::read_rgb(image.file);
+        if (picture.empty())
+            picture = program::read_picture(image.file, ism::ImageSize{image.width, image.height}).color;
         return picture;
     }
 

@@ -9,12 +9,13 @@
 #include <map>
 
 #include "commands.hpp"
+#include "data.hpp"
 #include "input.hpp"
 #include "page.hpp"
+#include "pictures.hpp"
 #include "progress.hpp"
 
 #include "ism/core/thread_pool.hpp"
-#include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/evaluate/table.hpp"
 
@@ -51,7 +52,7 @@ Contents look(const ism::Dataset& dataset, unsigned threads) {
         ism::parallel_for(dataset.images.size(), threads, [&](std::size_t i) {
             const ism::DatasetImage& image = dataset.images[i];
             try {
-                contents.images[i] = ism::inspect_image(image, ism::read_frame(image));
+                contents.images[i] = ism::inspect_image(image, ism::read_frame(image, read_picture));
             } catch (const ism::Error& error) {
                 ism::ImageFacts& facts = contents.images[i];
                 facts.remarks.push_back({.kind = "file that cannot be used", .text = error.what()});
@@ -128,7 +129,7 @@ ism::ReportFigure crop_figure(const ism::Dataset& dataset, std::size_t i, std::s
     const ism::DatasetImage& image = dataset.images[i];
     ism::RgbImage color;
     try {
-        color = ism::read_rgb(image.file);
+        color = program::read_picture(image.file, ism::ImageSize{image.width, image.height}).color;
     } catch (const ism::Error&) {  // said in words
         color = ism::RgbImage(std::max(1, image.width), std::max(1, image.height), {128, 128, 128});
     }
@@ -255,8 +256,15 @@ ism::Report page_of(const ism::Dataset& dataset, const Contents& contents,
 
 void run_inspect(const InspectCommand& command) {
     if (!command.report.empty()) check_output(command.report, std::array{command.data});
-    const ism::Dataset dataset = ism::read_dataset(command.data);
+    ism::Faults faults;
+    const ism::Dataset dataset = read_labels(command.data, ism::DatasetPart::train, faults);
     Contents contents = look(dataset, command.threads);
+    constexpr std::size_t most_faults = 20;
+    for (std::size_t i = 0; i < std::min(most_faults, faults.size()); ++i)
+        contents.of_set.push_back("label that cannot be used: " + faults[i]);
+    if (faults.size() > most_faults)
+        contents.of_set.push_back(
+            ism::join_text("... and ", faults.size() - most_faults, " more labels that cannot be used"));
     const auto examples = by_class(dataset, contents);
 
     std::size_t objects = 0, background = 0, with_depth = 0, with_camera = 0;

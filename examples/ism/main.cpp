@@ -259,7 +259,7 @@ void add_demo(CLI::App& parent, program::DemoCommand& command) {
 void add_inspect(CLI::App& parent, program::InspectCommand& command) {
     CLI::App& app = *parent.add_subcommand(
         "inspect", "tell what is in a data set before it is learnt from, and what looks wrong");
-    app.add_option("--data", command.data, "labelled images, COCO JSON")->required();
+    app.add_option("--data", command.data, data_text)->required();
     app.add_option("--report", command.report, "HTML page to write, with examples of each class");
     add_report_images(app, command.page);
     add_threads(app, command.threads);
