@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.22)
 
-# COMPILER, FLAGS, README, SCRATCH: each ```cpp block of the README compiles. What a reader has to fill in, an ellipsis,
+# COMPILER, FLAGS, TEXT, SCRATCH: each ```cpp block of a page compiles. What a reader has to fill in, an ellipsis,
 # is a default value; `picture` is an image of the reader's.
-file(READ "${README}" text)
+file(READ "${TEXT}" text)
 string(REPLACE "[" "<:" text "${text}") # brackets mean something in CMake's lists; these digraphs are the same in C++
 string(REPLACE "]" ":>" text "${text}")
 string(REPLACE ";" "<semicolon>" text "${text}")
 string(REGEX MATCHALL "\n```cpp\n[^`]*\n```\n" blocks "${text}")
 list(LENGTH blocks count)
 if(count EQUAL 0)
-    message(FATAL_ERROR "${README}: expected a block ```cpp")
+    message(FATAL_ERROR "${TEXT}: expected a block ```cpp")
 endif()
 set(number 0)
 foreach(block IN LISTS blocks)
@@ -22,12 +22,12 @@ foreach(block IN LISTS blocks)
     string(REGEX MATCHALL "#include [^\n]+\n" includes "${block}")
     string(CONCAT includes ${includes})
     string(REGEX REPLACE "#include [^\n]+\n" "" block "${block}")
-    set(source "${SCRATCH}/readme_${number}.cpp")
+    set(source "${SCRATCH}/block_${number}.cpp")
     file(WRITE "${source}" "#include <iostream>\n#include <string>\n#include <vector>\n${includes}
 int main() {\nconst ism::GrayImage picture(64, 64);\n${block}\n}\n")
     execute_process(COMMAND "${COMPILER}" -std=c++20 -fsyntax-only ${FLAGS} "${source}" RESULT_VARIABLE result ERROR_VARIABLE output)
     if(NOT result EQUAL 0)
-        message(FATAL_ERROR "${README}: block ${number} does not compile:\n${output}")
+        message(FATAL_ERROR "${TEXT}: block ${number} does not compile:\n${output}")
     endif()
 endforeach()
 message(STATUS "${count} blocks compile")
