@@ -272,7 +272,7 @@ void add_info(CLI::App& parent, program::InfoCommand& command) {
     CLI::Option* report = app.add_option("--report", command.report,
                                          "HTML page to write: words, objects and templates of each class");
     app.add_option("--data", command.data,
-                   "the labelled images it was learnt from, COCO JSON, so that the page shows words as they "
+                   "the labelled images it was learnt from, so that the page shows words as they "
                    "were seen")
         ->needs(report);
     add_report_images(app, command.page);
@@ -295,7 +295,7 @@ int tell_first_steps(const std::string& program) {
   %s demo
       makes pictures of toys, learns them, finds them, and writes a report
   %s train --data train.json -o model.safetensors
-      learns your own labelled pictures (COCO JSON)
+      learns your own labelled pictures (COCO, VOC, YOLO, labelme, or a folder a class)
   %s detect --model model.safetensors photo.jpg
       tells what is in a picture; --show draws it
   %s evaluate --data test.json --detections found.json

@@ -14,7 +14,7 @@ template <class Signature>
 class Function;
 
 /// @brief Whatever can be called as R(Arguments...), or nothing; copies share it. In place of std::function,
-/// since <functional> brings hash maps and searchers with it: 19 MB of what ism/ism.hpp costs to compile.
+/// since `functional` brings hash maps and searchers with it: 19 MB of what ism/ism.hpp costs to compile.
 template <class R, class... Arguments>
 class Function<R(Arguments...)> {
 public:

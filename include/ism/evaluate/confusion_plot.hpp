@@ -12,7 +12,7 @@
 
 namespace ism {
 
-/// @brief A confusion matrix as an <svg> element: a square for each true class (rows) and class it was taken
+/// @brief A confusion matrix as an `svg` element: a square for each true class (rows) and class it was taken
 /// for (columns, the last one "none"), the darker the larger the share of its row, with the number of images.
 /// @throws Error where there is not one name a class.
 [[nodiscard]] inline std::string to_svg(const Confusion& confusion, std::span<const std::string> class_names,

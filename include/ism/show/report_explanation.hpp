@@ -24,7 +24,7 @@ namespace ism {
 
 namespace detail {
 
-/// Shapes drawn alike: a few steps of opacity, each one <path>, which keeps pages small.
+/// Shapes drawn alike: a few steps of opacity, each one `path`, which keeps pages small.
 class OpacitySteps {
 public:
     static constexpr std::size_t steps = 5;
@@ -53,14 +53,14 @@ private:
     return number_text(std::round(10 * std::clamp(px, -1e5, 1e5)) / 10, 8);
 }
 
-/// The outline of a box as the `d` of a <path>.
+/// The outline of a box as the `d` of a `path`.
 [[nodiscard]] inline std::string rectangle_path(const Box& box) {
     return join_text('M', tenth(box.x), ' ', tenth(box.y), 'h', tenth(box.width), 'v', tenth(box.height),
                      'h') +
            join_text(tenth(-box.width), 'z');
 }
 
-/// A circle as the `d` of a <path>.
+/// A circle as the `d` of a `path`.
 [[nodiscard]] inline std::string circle_path(Point2 centre, double radius) {
     const std::string r = tenth(radius), arc = join_text('a', r, ' ', r, " 0 1 0 ");
     return join_text('M', tenth(centre.x - radius), ' ', tenth(centre.y), arc, tenth(2 * radius), " 0", arc) +

@@ -56,7 +56,7 @@ struct ReportGallery {
     std::vector<ReportFigure> figures = {};
 };
 
-/// @brief An <svg> element, such as to_svg() gives; it goes into the page as it is.
+/// @brief An `svg` element, such as to_svg() gives; it goes into the page as it is.
 struct ReportPlot {
     std::string svg;
 };

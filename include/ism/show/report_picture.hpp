@@ -77,7 +77,7 @@ inline void check(const ReportPictureOptions& options) {
     return std::max(60, int(std::lround(std::min(1.0, part.width / part.height) * most_px)));
 }
 
-/// @brief A <rect> for a figure; `more` are further attributes.
+/// @brief A `rect` for a figure; `more` are further attributes.
 [[nodiscard]] inline std::string svg_box(const Box& box, const std::string& more) {
     return "<rect x=\"" + detail::svg_number(box.x) + "\" y=\"" + detail::svg_number(box.y) + "\" width=\"" +
            detail::svg_number(box.width) + "\" height=\"" + detail::svg_number(box.height) + "\" " + more +

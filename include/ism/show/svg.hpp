@@ -55,7 +55,7 @@ namespace detail {
     return number_text(std::round(std::clamp(value, -1e5, 1e5) * 100) / 100, 8);
 }
 
-/// <text> at (x, y); `more` are further attributes.
+/// `text` at (x, y); `more` are further attributes.
 [[nodiscard]] inline std::string svg_text(double x, double y, const std::string& text,
                                           const std::string& more) {
     return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" " + more + ">" +
@@ -70,7 +70,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// @brief The plot as an <svg> element: title, axes with ticks and a grid, curves cut off at the axes,
+/// @brief The plot as an `svg` element: title, axes with ticks and a grid, curves cut off at the axes,
 /// legend.
 /// @throws Error where a range is empty or not finite, a curve has unlike numbers of x and y, or the plot is
 /// smaller than 160×120.
