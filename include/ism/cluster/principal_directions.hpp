@@ -37,27 +37,32 @@ public:
         for (std::size_t c = 0; c < along.size(); ++c) along[c] += factor * row[c];
     }
 
-    /// Makes them orthonormal, one after another (Gram–Schmidt, twice against rounding). A direction that
-    /// depends on those before becomes 0, which keeps every use as a projection right.
+    /// Makes them orthonormal, one after another (Gram–Schmidt, twice against rounding): each is taken out of
+    /// all that follow. A direction that depends on those before becomes 0, which keeps every use as a
+    /// projection right.
     void orthonormalise() {
-        for (std::size_t i = 0; i < count_; ++i) {
-            const double length = std::sqrt(dot(i, i));
-            for (int pass = 0; pass < 2; ++pass)
-                for (std::size_t j = 0; j < i; ++j) {
-                    const double along = dot(i, j);
-                    for (std::size_t k = 0; k < dimension_; ++k) (*this)(k, i) -= along * (*this)(k, j);
+        std::vector<double> before(count_), along(count_);
+        for (int pass = 0; pass < 2; ++pass) {
+            for (std::size_t i = 0; i < count_; ++i) before[i] = length(i);
+            for (std::size_t i = 0; i < count_; ++i) {
+                const double left = length(i), factor = left > 1e-6 * before[i] ? 1 / left : 0;
+                const std::span<double> others = std::span(along).subspan(i + 1);
+                std::fill(others.begin(), others.end(), 0.0);
+                for (std::size_t k = 0; k < dimension_; ++k) {
+                    (*this)(k, i) *= factor;
+                    add((*this)(k, i), row(k) + i + 1, others);
                 }
-            const double left = std::sqrt(dot(i, i));
-            const double factor = left > 1e-6 * length ? 1 / left : 0;
-            for (std::size_t k = 0; k < dimension_; ++k) (*this)(k, i) *= factor;
+                for (std::size_t k = 0; k < dimension_; ++k)
+                    add(-(*this)(k, i), others.data(), {row(k) + i + 1, others.size()});
+            }
         }
     }
 
 private:
-    [[nodiscard]] double dot(std::size_t i, std::size_t j) {
+    [[nodiscard]] double length(std::size_t c) {
         double sum = 0;
-        for (std::size_t k = 0; k < dimension_; ++k) sum += (*this)(k, i) * (*this)(k, j);
-        return sum;
+        for (std::size_t k = 0; k < dimension_; ++k) sum += (*this)(k, c) * (*this)(k, c);
+        return std::sqrt(sum);
     }
 
     std::size_t dimension_, count_;
