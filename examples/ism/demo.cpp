@@ -279,7 +279,7 @@ void run_demo(const DemoCommand& command) {
     std::printf("All in %.0f s. To see it:\n  %s\n", watch.seconds(),
                 opening_text(folder / "report.html").c_str());
     const char* const program = command.program.c_str();
-    std::printf("Next, with pictures of your own (train.json stands for COCO, VOC, YOLO, labelme or a folder a class):\n");
+    std::printf("Next, with labels of COCO, VOC, YOLO, labelme, or a folder a class:\n");
     std::printf("  %s train --data train.json -o model.safetensors\n", program);
     std::printf("  %s detect --model model.safetensors --show photo.jpg\n", program);
     std::printf("  %s detect --model model.safetensors --data test.json --report found.html\n", program);
