@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <vector>
@@ -17,7 +16,7 @@ struct alignas(64) CacheLine {
     std::byte bytes[64];
 };
 
-/// @brief Numbers of which the first lies at the start of a cache line.
+/// @brief Numbers in whole cache lines, the first at the start of one.
 template <class T>
 requires std::is_arithmetic_v<T>
 class AlignedVector {
@@ -25,22 +24,19 @@ public:
     AlignedVector() = default;
     explicit AlignedVector(std::size_t size) { resize(size); }
 
-    [[nodiscard]] std::size_t size() const { return size_; }
+    /// @brief Those that were asked for and what fills the last line.
+    [[nodiscard]] std::size_t size() const { return lines_.size() * in_line; }
     [[nodiscard]] T* data() { return reinterpret_cast<T*>(lines_.data()); }
     [[nodiscard]] const T* data() const { return reinterpret_cast<const T*>(lines_.data()); }
     [[nodiscard]] T& operator[](std::size_t i) { return data()[i]; }
     [[nodiscard]] const T& operator[](std::size_t i) const { return data()[i]; }
 
-    /// @brief Keeps the first numbers; those that are new are 0.
-    void resize(std::size_t size) {
-        lines_.resize((size * sizeof(T) + sizeof(CacheLine) - 1) / sizeof(CacheLine));
-        if (size > size_) std::fill(data() + size_, data() + size, T(0));
-        size_ = size;
-    }
+    /// @brief Room for so many. The first ones stay; those in new lines are 0.
+    void resize(std::size_t size) { lines_.resize((size + in_line - 1) / in_line); }
 
 private:
+    static constexpr std::size_t in_line = sizeof(CacheLine) / sizeof(T);
     std::vector<CacheLine> lines_;
-    std::size_t size_ = 0;
 };
 
 /// @brief The next multiple of the floats in a cache line.
