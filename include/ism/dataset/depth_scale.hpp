@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -11,6 +10,7 @@
 #include "ism/core/camera.hpp"
 #include "ism/core/error.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/order.hpp"
 
 /// Whether depth can be metres: units taken for metres make no error by themselves, only nonsense.
 namespace ism {
@@ -23,9 +23,7 @@ namespace ism {
         for (int x = 0; x < depth_m.width(); x += step)
             if (is_depth(depth_m(x, y))) readings.push_back(depth_m(x, y));
     if (readings.empty()) return std::numeric_limits<double>::quiet_NaN();
-    const auto middle = readings.begin() + std::ptrdiff_t(readings.size() / 2);
-    std::nth_element(readings.begin(), middle, readings.end());
-    return *middle;
+    return double(detail::nth_smallest(readings, readings.size() / 2));
 }
 
 /// @brief The metres per unit that a camera with this median reading most likely has: the first of

@@ -14,6 +14,7 @@
 
 #include "ism/core/frame.hpp"
 #include "ism/core/number_text.hpp"
+#include "ism/core/order.hpp"
 #include "ism/dataset/dataset.hpp"
 
 namespace ism {
@@ -119,9 +120,7 @@ namespace detail {
         if (facts.depth_share < options.min_depth_share)
             remark("little depth", percent(facts.depth_share) + " of the object has a reading");
         if (!readings.empty()) {
-            const auto middle = readings.begin() + std::ptrdiff_t(readings.size() / 2);
-            std::nth_element(readings.begin(), middle, readings.end());
-            facts.depth_m = double(*middle);
+            facts.depth_m = double(nth_smallest(readings, readings.size() / 2));
             if (!(facts.depth_m >= options.min_depth_m && facts.depth_m <= options.max_depth_m))
                 remark("depth scale",
                        join_text("the object would be ", number_text(facts.depth_m, 3),
