@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -18,6 +17,7 @@
 #include <unistd.h>
 
 #include "ism/core/number_text.hpp"
+#include "ism/dataset/image_files.hpp"
 #include "ism/io/paths.hpp"
 #include "ism/io/write_file.hpp"
 
@@ -29,32 +29,12 @@ namespace {
 
 constexpr std::string_view overlay_ending = ".ism.png";
 
-bool is_image_name(const fs::path& file) {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    constexpr std::array<std::string_view, 10> known = {".png", ".jpg", ".jpeg", ".bmp", ".ppm",
-                                                        ".pgm", ".pnm", ".webp", ".tif", ".tiff"};
-    return std::find(known.begin(), known.end(), ending) != known.end();
-}
-
 /// Whether a file is a grey PNG of 16 bits, as depth is kept.
 bool is_depth_image(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::array<char, 26> head{};
     stream.read(head.data(), std::streamsize(head.size()));
     return stream && std::string_view(head.data() + 1, 3) == "PNG" && head[24] == 16 && head[25] == 0;
-}
-
-std::vector<fs::path> files_of_folder(const fs::path& folder) {
-    std::vector<fs::path> files;
-    std::error_code failure;
-    for (fs::directory_iterator at(folder, failure), end; !failure && at != end; at.increment(failure))
-        if (!fs::is_directory(at->path(), failure) && is_image_name(at->path())) files.push_back(at->path());
-    if (failure)
-        throw ism::FileError("folder '" + folder.string() + "': expected to read it, got " +
-                             failure.message());
-    return files;
 }
 
 std::vector<fs::path> files_of_pattern(const std::string& pattern) {
@@ -75,7 +55,7 @@ ImageList::ImageList(std::span<const std::string> arguments) {
         if (argument == standard_input) {
             add_standard_input();
         } else if (fs::is_directory(argument, failure)) {
-            add_found(files_of_folder(argument), "folder '" + ism::one_line(argument) + "'");
+            add_found(ism::detail::image_files(argument), "folder '" + ism::one_line(argument) + "'");
         } else if (fs::exists(argument, failure) || argument.find_first_of("*?[") == std::string::npos) {
             ism::expect<ism::FileError>(fs::exists(argument, failure), ism::file_text(argument),
                                         "an image to read", "none of this name");
