@@ -3,6 +3,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <filesystem>
 #include <random>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "ism/core/error.hpp"
 #include "ism/core/number_text.hpp"
+#include "ism/io/write_file.hpp"
 
 namespace ism::test {
 
@@ -52,6 +54,18 @@ public:
 private:
     std::filesystem::path before_;
 };
+
+/// @brief Writes a file, and makes the folders above it.
+inline void write_text(const std::filesystem::path& path, const std::string& text) {
+    std::filesystem::create_directories(path.parent_path());
+    write_file(path, text);
+}
+
+/// @brief Writes a grey image of one brightness, as PNM.
+inline void write_pnm(const std::filesystem::path& path, int width, int height) {
+    write_text(path, join_text("P5 ", width, " ", height, " 255\n") +
+                         std::string(std::size_t(width) * std::size_t(height), 'x'));
+}
 
 /// @brief The message of the E that `call` throws; "nothing thrown" where it throws nothing.
 template <class E = Error, std::invocable Call>

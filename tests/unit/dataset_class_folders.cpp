@@ -22,11 +22,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A PNM file of 24 × 18 px: an image that is no PNG.
-void write_pnm(const fs::path& path, int width = 24, int height = 18) {
-    fs::create_directories(path.parent_path());
-    ism::write_file(path, ism::join_text("P5 ", width, " ", height, " 255\n") +
-                              std::string(std::size_t(width * height), 'x'));
+// An image that is no PNG.
+void write_image(const fs::path& path, int width = 24, int height = 18) {
+    ism::test::write_pnm(path, width, height);
 }
 
 void write_mask(const fs::path& path, const Box& box, std::uint8_t figure = 255, int width = 24) {
@@ -57,13 +55,13 @@ std::string folder_error(const fs::path& folder) {
 
 TEST_CASE("A folder with one folder a class is a data set, with masks beside the images or in them") {
     const TemporaryFolder folder;
-    write_pnm(folder / "car/1.pgm");
+    write_image(folder / "car/1.pgm");
     write_mask(folder / "car/1.png", {3, 4, 5, 6}, 1);  // 0 and 1 are a mask as well
-    write_pnm(folder / "car/2.pgm");
+    write_image(folder / "car/2.pgm");
     write_mask(folder / "car/2_mask.png", {1, 2, 20, 10});
     write_cut_out(folder / "cow/1.png", {7, 2, 8, 9});
-    write_pnm(folder / "cow/2.pgm");
-    write_pnm(folder / "Background/1.pgm");
+    write_image(folder / "cow/2.pgm");
+    write_image(folder / "Background/1.pgm");
     ism::write_file(folder / "readme.txt", std::string("no image"));
     ism::write_file(folder / "car/.hidden.png", std::string("no image"));
     ism::write_file(folder / "car/1.ism.png", std::string("drawn by the program"));
@@ -92,8 +90,8 @@ TEST_CASE("A folder with one folder a class is a data set, with masks beside the
 
 TEST_CASE("Images alone have no labels, and a folder with one JSON file is COCO's") {
     const TemporaryFolder folder;
-    write_pnm(folder / "b.pgm");
-    write_pnm(folder / "a.pgm", 30, 20);
+    write_image(folder / "b.pgm");
+    write_image(folder / "a.pgm", 30, 20);
     const ism::Dataset dataset = ism::read_any_dataset(folder.path());
     REQUIRE(dataset.images.size() == 2);
     CHECK(dataset.class_names.empty());
@@ -122,12 +120,12 @@ TEST_CASE("Folders that make no sense are refused in a line, single images may b
           "folder '" + folder.path().string() + "': expected a data set, got no image");
     fs::create_directories(folder / "car");
     CHECK(folder_error(folder.path()).ends_with("car': expected images of a class, got none"));
-    write_pnm(folder / "car/1.pgm");
-    write_pnm(folder / "0.pgm");
+    write_image(folder / "car/1.pgm");
+    write_image(folder / "0.pgm");
     CHECK(folder_error(folder.path())
               .ends_with("0.pgm': expected images in the folder of their class, got one beside the folders"));
     fs::remove(folder / "0.pgm");
-    write_pnm(folder / "train/car/1.pgm");
+    write_image(folder / "train/car/1.pgm");
     CHECK(folder_error(folder.path())
               .ends_with("train': expected the images of a class, got a folder of folders; "
                          "give the folder above those of the classes"));
@@ -141,7 +139,7 @@ TEST_CASE("Folders that make no sense are refused in a line, single images may b
     CHECK(folder_error(folder.path()).ends_with("5_mask.png': expected an image beside this mask, got none"));
     ism::write_file(folder / "car/2.heic", std::string("no image"));
     ism::write_file(folder / "car/3.jpg", std::string("\xff\xd8\xff, but no image"));
-    write_pnm(folder / "car/9.pgm");
+    write_image(folder / "car/9.pgm");
     ism::Faults faults;
     const ism::Dataset left = ism::read_any_dataset(folder.path(), {.faults = &faults});
     REQUIRE(left.images.size() == 2);

@@ -17,8 +17,7 @@ using ism::test::TemporaryFolder;
 namespace {
 
 void write_60_by_50(const std::filesystem::path& path) {
-    std::filesystem::create_directories(path.parent_path());
-    ism::write_file(path, "P5 60 50 255\n" + std::string(3000, 'x'));
+    ism::test::write_pnm(path, 60, 50);
 }
 
 std::string labelme(const std::string& shapes, const std::string& image = "a.pgm") {

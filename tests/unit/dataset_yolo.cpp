@@ -15,18 +15,14 @@ using ism::DatasetPart;
 using ism::FileError;
 using ism::test::error_message;
 using ism::test::TemporaryFolder;
+using ism::test::write_text;
 
 namespace fs = std::filesystem;
 
 namespace {
 
-void write_yolo(const fs::path& path, const std::string& text) {
-    fs::create_directories(path.parent_path());
-    ism::write_file(path, text);
-}
-
 void write_40_by_20(const fs::path& path) {
-    write_yolo(path, "P5 40 20 255\n" + std::string(800, 'x'));
+    ism::test::write_pnm(path, 40, 20);
 }
 
 }  // namespace
@@ -52,12 +48,12 @@ TEST_CASE("The YAML of YOLO data sets is read in its usual forms") {
 
 TEST_CASE("YOLO's boxes and outlines are read, of the part that is asked for") {
     const TemporaryFolder folder;
-    write_yolo(folder / "data.yaml",
+    write_text(folder / "data.yaml",
                "train: ../train/images\nval: ../valid/images\ntest: ../test/images\nnames: [cup, car]\n");
     write_40_by_20(folder / "train/images/a.pgm");
     write_40_by_20(folder / "train/images/b.pgm");
     write_40_by_20(folder / "valid/images/c.pgm");
-    write_yolo(folder / "train/labels/a.txt", "1 0.5 0.5 0.25 0.5\r\n\n0 0.1 0.2 0.3 0.2 0.3 0.8\n");
+    write_text(folder / "train/labels/a.txt", "1 0.5 0.5 0.25 0.5\r\n\n0 0.1 0.2 0.3 0.2 0.3 0.8\n");
     for (const char* place : {"data.yaml", "", "train", "train/images"}) {
         CAPTURE(place);
         const ism::Dataset dataset = ism::read_any_dataset(folder.path() / place);
@@ -81,21 +77,21 @@ TEST_CASE("YOLO's boxes and outlines are read, of the part that is asked for") {
 TEST_CASE("YOLO's labels stand beside the images too, and images in a list") {
     const TemporaryFolder folder;
     write_40_by_20(folder / "a.pgm");
-    write_yolo(folder / "a.txt", "0 0.5 0.5 1 1");
-    write_yolo(folder / "classes.txt", "cup\ncar\n");
+    write_text(folder / "a.txt", "0 0.5 0.5 1 1");
+    write_text(folder / "classes.txt", "cup\ncar\n");
     REQUIRE(ism::read_any_dataset(folder.path()).images.size() == 1);
     CHECK(ism::read_any_dataset(folder.path()).images[0].objects.at(0).box == Box{0, 0, 40, 20});
-    write_yolo(folder / "some.yaml", "train: list.txt\nnames: {0: cup}");
-    write_yolo(folder / "list.txt", "./a.pgm\n");
+    write_text(folder / "some.yaml", "train: list.txt\nnames: {0: cup}");
+    write_text(folder / "list.txt", "./a.pgm\n");
     CHECK(ism::read_any_dataset(folder / "some.yaml").images.at(0).objects.size() == 1);
 }
 
 TEST_CASE("Labels of YOLO that make no sense are named by file and line, or left out") {
     const TemporaryFolder folder;
     write_40_by_20(folder / "images/a.pgm");
-    write_yolo(folder / "labels/a.txt", "");
+    write_text(folder / "labels/a.txt", "");
     const auto refused = [&](const std::string& line) {
-        write_yolo(folder / "labels/a.txt", "0 0.5 0.5 0.5 0.5\n" + line);
+        write_text(folder / "labels/a.txt", "0 0.5 0.5 0.5 0.5\n" + line);
         const std::string message =
             error_message<FileError>([&] { (void)ism::read_any_dataset(folder.path()); });
         const std::size_t at = message.find("a.txt', line 2: ");
@@ -103,13 +99,13 @@ TEST_CASE("Labels of YOLO that make no sense are named by file and line, or left
     };
     CHECK(
         refused("").ends_with("expected the names of its classes in data.yaml or classes.txt, got neither"));
-    write_yolo(folder / "data.yaml", "train: images\n");
+    write_text(folder / "data.yaml", "train: images\n");
     CHECK(refused("").ends_with("data.yaml': expected names of classes, got none"));
-    write_yolo(folder / "data.yaml", "names: [cup]");
+    write_text(folder / "data.yaml", "names: [cup]");
     CHECK(refused("").ends_with("expected 'train', where images are, got neither"));
-    write_yolo(folder / "data.yaml", "names: {1: cup}\ntrain: images\n");
+    write_text(folder / "data.yaml", "names: {1: cup}\ntrain: images\n");
     CHECK(refused("").ends_with("names: expected classes 0, 1, 2 … in this order, got '1'"));
-    write_yolo(folder / "data.yaml", "names: [cup]\ntrain: images\n");
+    write_text(folder / "data.yaml", "names: [cup]\ntrain: images\n");
     CHECK(refused("") == "nothing thrown");
     CHECK(refused("1 0.5 0.5 0.5 0.5") == "class: expected a whole number below 1, got 1");
     CHECK(refused("-1 0.5 0.5 0.5 0.5") == "class: expected a whole number below 1, got -1");
@@ -139,8 +135,8 @@ TEST_CASE("Whatever YOLO's files hold is read or refused in a line") {
     };
     int fine = 0;
     for (int round = 0; round < 200; ++round) {
-        write_yolo(folder / "data.yaml", changed(yaml));
-        write_yolo(folder / "labels/a.txt", changed(label));
+        write_text(folder / "data.yaml", changed(yaml));
+        write_text(folder / "labels/a.txt", changed(label));
         const std::string message =
             error_message<FileError>([&] { (void)ism::read_any_dataset(folder.path()); });
         fine += message == "nothing thrown";
