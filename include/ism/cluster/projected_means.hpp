@@ -40,20 +40,20 @@ public:
                 centred[k] = start.means[i * dimension + k] - float(middle[k]);
         };
 
-        const std::size_t sample = whole_ ? 0 : std::min<std::size_t>(count, 512);
+        const std::size_t sample = whole_ ? 0 : std::min<std::size_t>(count, 256);
         std::vector<float> points(sample * dimension);
         for (std::size_t s = 0; s < sample; ++s) centre(s * count / sample, points.data() + s * dimension);
-        const PrincipalAxes directions =
+        const RowMatrix directions =
             principal_directions(points, dimension, whole_ ? 0 : projected_dimension - 1);
 
         constexpr std::size_t block = 256;
         pool.for_each((count + block - 1) / block, [&](std::size_t part, unsigned /*worker*/) {
             std::vector<float> centred(dimension);
-            std::vector<double> along(directions.count());
+            std::vector<double> along(directions.columns());
             for (std::size_t i = part * block; i < std::min(count, (part + 1) * block); ++i) {
                 centre(i, centred.data());
                 float* projected = numbers_.data() + i * projected_dimension;
-                directions.project(centred.data(), along);
+                directions.weigh(centred.data(), 1, along);
                 for (std::size_t c = 0; c < along.size(); ++c) projected[c] = float(along[c]);
                 if (whole_) std::copy(centred.begin(), centred.end(), projected);
                 double square = 0;
