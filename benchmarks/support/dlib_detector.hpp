@@ -16,6 +16,7 @@
 #endif
 
 #include "ism/core/frame.hpp"
+#include "ism/core/frame_colors.hpp"
 #include "ism/evaluate/matching.hpp"
 #include "ism/train/training_image.hpp"
 

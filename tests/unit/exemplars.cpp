@@ -9,6 +9,7 @@
 
 #include "support/catch.hpp"
 
+#include "ism/core/frame_colors.hpp"
 #include "ism/core/random.hpp"
 #include "ism/detect/exemplar_segmenter.hpp"
 #include "ism/train/learn_exemplars.hpp"

@@ -35,11 +35,9 @@ public:
         dot_ = detail::exact_dot<float>(isa);
         expect(max_sq_distance_ >= 0, "matching: largest squared distance", "0 or more", max_sq_distance_);
         for (const std::span<const float> values :
-             {std::span<const float>(words_), std::span<const float>(mean_sq_lengths_)}) {
-            const auto bad =
-                std::find_if_not(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
-            expect(bad == values.end(), "matching: words", "finite numbers", bad == values.end() ? 0 : *bad);
-        }
+             {std::span<const float>(words_), std::span<const float>(mean_sq_lengths_)})
+            for (const float value : values)
+                expect(std::isfinite(value), "matching: words", "finite numbers", value);
         number_groups();
         // Bytes are faster where their rounding is small beside the threshold, or, where there is none,
         // beside how far apart words are.

@@ -24,7 +24,8 @@ namespace detail {
 
 /// Kept out of line: nothing of it is compiled into the loops that check.
 template <class E>
-[[noreturn, gnu::cold, gnu::noinline]] void refuse(TextPart what, TextPart expected, TextPart actual) {
+[[noreturn, gnu::cold, gnu::noinline]] void refuse(const TextPart& what, const TextPart& expected,
+                                                   const TextPart& actual) {
     throw E(join_text(what, ": expected ", expected, ", got ", actual));
 }
 
@@ -33,7 +34,7 @@ template <class E>
 /// @brief Throws E unless `holds`, with the message "`what`: expected `expected`, got `actual`". The message
 /// is made only then: see lazy_text() for one of several parts.
 template <class E = Error>
-void expect(bool holds, TextPart what, TextPart expected, TextPart actual) {
+void expect(bool holds, const TextPart& what, const TextPart& expected, const TextPart& actual) {
     if (!holds) [[unlikely]]
         detail::refuse<E>(what, expected, actual);
 }

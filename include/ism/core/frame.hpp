@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <optional>
 
 #include "ism/core/camera.hpp"
@@ -19,16 +18,11 @@ struct Frame {
     std::optional<Camera> camera = {};
 };
 
-/// @brief The colours of a frame; those of a grey one are its brightness in 8 bits.
-[[nodiscard]] inline RgbImage colors_of(const Frame& frame) {
-    if (!frame.color.empty()) return frame.color;
-    RgbImage color(frame.gray.width(), frame.gray.height());
-    std::transform(frame.gray.pixels().begin(), frame.gray.pixels().end(), color.pixels().begin(),
-                   [](float gray) {
-                       const auto byte = static_cast<std::uint8_t>(255 * std::clamp(gray, 0.0f, 1.0f) + 0.5f);
-                       return Rgb{byte, byte, byte};
-                   });
-    return color;
+/// @brief Whether any pixel of a depth image has a reading.
+[[nodiscard]] inline bool has_reading(const DepthMap& depth_m) {
+    for (const float value : depth_m.pixels())
+        if (is_depth(value)) return true;
+    return false;
 }
 
 /// @brief Validates the sizes of `frame`, that its depth has readings, and its camera. The brightness itself
@@ -46,9 +40,7 @@ inline void check(const Frame& frame) {
     if (!frame.depth_m.empty()) {
         expect(has_size_of_gray(frame.depth_m), "depth image size", size_text(frame.gray),
                size_text(frame.depth_m));
-        const auto pixels = frame.depth_m.pixels();
-        expect(std::any_of(pixels.begin(), pixels.end(), [](float value) { return is_depth(value); }),
-               "depth image", "at least one reading above 0", "none");
+        expect(has_reading(frame.depth_m), "depth image", "at least one reading above 0", "none");
     }
     if (frame.camera) check(*frame.camera);
 }

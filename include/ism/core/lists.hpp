@@ -8,8 +8,8 @@
 
 #include "ism/core/callable.hpp"
 
-/// For each type of values these cost a compiler a third of what std::vector::insert() and std::erase_if()
-/// do.
+/// For each type of values these cost a compiler a third of what std::vector::insert(), std::any_of() and
+/// std::erase_if() do.
 namespace ism::detail {
 
 /// Adds values to the end of a list.
@@ -22,6 +22,14 @@ void append(std::vector<T>& list, const std::vector<T>& values) {
 template <class T>
 void keep_first(std::vector<T>& list, std::size_t count) {
     while (list.size() > count) list.pop_back();
+}
+
+/// Whether any value satisfies `test`.
+template <class T, Callable<const T&> Test>
+[[nodiscard]] bool any_of(const std::vector<T>& list, const Test& test) {
+    for (const T& value : list)
+        if (test(value)) return true;
+    return false;
 }
 
 /// Drops the values that satisfy `test`; the others stay in order.

@@ -10,6 +10,7 @@
 
 #include "ism/core/box_region.hpp"
 #include "ism/core/color_bins.hpp"
+#include "ism/core/frame_colors.hpp"
 #include "ism/core/guided_filter.hpp"
 #include "ism/core/resize_area.hpp"
 #include "ism/detect/exemplar_prior.hpp"

@@ -160,12 +160,14 @@ template <Kernel K, std::size_t Dimension>
 /// @brief Which votes can be of an object in a scene, by its size and the sizes of the training objects.
 [[nodiscard]] inline VoteLimits vote_limits(const Scene& scene, const DetectOptions& options) {
     const std::vector<TrainingObject>& objects = scene.model.shapes.objects;
-    const auto [smallest, largest] = std::minmax_element(
-        objects.begin(), objects.end(),
-        [](const TrainingObject& a, const TrainingObject& b) { return a.size_px < b.size_px; });
-    const double min_size_px = options.min_size_px > 0 ? options.min_size_px : smallest->size_px / 2;
+    float smallest_px = objects.front().size_px, largest_px = smallest_px;
+    for (const TrainingObject& object : objects) {
+        smallest_px = std::min(smallest_px, object.size_px);
+        largest_px = std::max(largest_px, object.size_px);
+    }
+    const double min_size_px = options.min_size_px > 0 ? options.min_size_px : smallest_px / 2;
     const double width = scene.frame.gray.width(), height = scene.frame.gray.height();
-    const double max_size_px = std::min(options.max_size_px > 0 ? options.max_size_px : largest->size_px * 2,
+    const double max_size_px = std::min(options.max_size_px > 0 ? options.max_size_px : largest_px * 2,
                                         std::max(min_size_px, std::hypot(width, height)));
     return {.width = width,
             .height = height,

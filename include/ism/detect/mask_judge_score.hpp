@@ -13,6 +13,7 @@
 
 #include "ism/core/error.hpp"
 #include "ism/core/frame.hpp"
+#include "ism/core/frame_colors.hpp"
 #include "ism/core/order.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/mask_candidates.hpp"

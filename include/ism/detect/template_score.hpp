@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ism/core/frame.hpp"
+#include "ism/core/frame_colors.hpp"
 #include "ism/detect/asked_proposals.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/scene.hpp"
@@ -42,8 +43,7 @@ template <class AreOne>
     for (std::size_t i = 0; i < hypotheses.size(); ++i) order.push_back({i, hypotheses[i].score});
     sort_by(order, [](const Verified& v) { return falling(v.score); });
     for (const Verified& candidate : order)
-        if (std::none_of(kept.begin(), kept.end(),
-                         [&](const Verified& stronger) { return are_one(stronger.index, candidate.index); }))
+        if (!any_of(kept, [&](const Verified& stronger) { return are_one(stronger.index, candidate.index); }))
             kept.push_back(candidate);
     return kept;
 }

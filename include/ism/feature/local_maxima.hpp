@@ -56,7 +56,7 @@ struct SubPixel {
 
 /// The features of all lists, from small scales to large, each octave of scales from top to bottom, without
 /// repetitions: the same however they are spread over the lists.
-[[nodiscard]] inline std::vector<Feature> in_order(std::span<const std::vector<Feature>> lists,
+[[nodiscard]] inline std::vector<Feature> in_order(const std::vector<std::vector<Feature>>& lists,
                                                    Workspace& workspace) {
     std::vector<Feature> found = workspace.empty_list(), all = workspace.empty_list();
     for (const std::vector<Feature>& list : lists)

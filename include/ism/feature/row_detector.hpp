@@ -69,7 +69,7 @@ using RowOfOctave = std::array<int, max_scale_octaves>;
 /// Searches the rows from[octave] … end[octave] − 1 of every octave.
 template <RowDetector D>
 void search_rows(const D& detector, const ScaleSpace& space, const RowOfOctave& from, const RowOfOctave& end,
-                 Workspace& workspace, std::span<std::vector<Feature>> found) {
+                 Workspace& workspace, std::vector<std::vector<Feature>>& found) {
     constexpr int rows_per_task = 32;
     const auto tasks_of = [&](std::size_t octave) {
         return std::size_t(std::max(0, end[octave] - from[octave] + rows_per_task - 1) / rows_per_task);
@@ -91,7 +91,7 @@ template <RowDetector D>
 [[nodiscard]] std::vector<Feature> search_advancing(const D& detector, ScaleSpace& space,
                                                     Workspace& workspace) {
     const SearchReach reach = detector.prepare(space, workspace);
-    const auto found = workspace.lists(workspace.pool().size());
+    std::vector<std::vector<Feature>>& found = workspace.lists();
     RowOfOctave searched{}, end{};
     while (space.advance(workspace)) {
         for (int octave = 0; octave < space.octaves(); ++octave)
@@ -114,7 +114,7 @@ template <RowDetector D>
 [[nodiscard]] std::vector<Feature> search_all_rows(const D& detector, const ScaleSpace& space,
                                                    Workspace& workspace) {
     (void)detector.prepare(space, workspace);
-    const auto found = workspace.lists(workspace.pool().size());
+    std::vector<std::vector<Feature>>& found = workspace.lists();
     detail::RowOfOctave end{};
     for (int octave = 0; octave < space.octaves(); ++octave)
         end[std::size_t(octave)] = space.level_height(octave);

@@ -66,11 +66,11 @@ public:
         return {own.data(), count};
     }
 
-    /// @brief `count` empty lists, valid until the next call.
-    [[nodiscard]] std::span<std::vector<Feature>> lists(std::size_t count) {
-        if (lists_.size() < count) lists_.resize(count);
-        for (std::size_t i = 0; i < count; ++i) lists_[i].clear();
-        return {lists_.data(), count};
+    /// @brief An empty list for each worker of the pool, valid until the next call.
+    [[nodiscard]] std::vector<std::vector<Feature>>& lists() {
+        lists_.resize(threads());
+        for (std::vector<Feature>& list : lists_) list.clear();
+        return lists_;
     }
 
     /// @brief The scratch buffer `use` with `count` numbers, uninitialised; valid until the next call for it.

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/frame_colors.hpp"
 #include "ism/core/order.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/thread_pool.hpp"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/vote/bandwidth.hpp"
 #include "ism/vote/kernel.hpp"
@@ -69,7 +70,7 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
         return sq_windows(mode.at, other.at, search.bandwidth().at(other.scale)) < part * part;
     };
     const auto is_known = [&](const Mode<Dimension>& mode) {
-        return std::any_of(modes.begin(), modes.end(), [&](const auto& other) {
+        return detail::any_of(modes, [&](const Mode<Dimension>& other) {
             return std::abs(mode.scale / other.scale - 1) < options.merge_radius &&
                    near(mode, other, options.merge_radius);
         });
@@ -86,7 +87,7 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
     }
     detail::sort_by(modes, [](const auto& mode) { return detail::falling(mode.score); });
     for (const auto& mode : modes)
-        if (std::none_of(apart.begin(), apart.end(), [&](const auto& other) { return near(mode, other, 1); }))
+        if (!detail::any_of(apart, [&](const Mode<Dimension>& other) { return near(mode, other, 1); }))
             apart.push_back(mode);
     return apart;
 }
