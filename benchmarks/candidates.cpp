@@ -69,9 +69,7 @@ struct Counts {
 
 [[nodiscard]] Counts measured(const std::filesystem::path& folder, unsigned threads) {
     const auto model = bench::learn_as_program(ism::read_dataset(folder / "train.json"), threads);
-    const bool has_test = std::filesystem::exists(folder / "test.json");
-    const ism::Dataset set = ism::select_classes(
-        ism::read_dataset(folder / (has_test ? "test.json" : "val.json")), model.shapes.class_names);
+    const ism::Dataset set = bench::held_out(folder, model.shapes.class_names);
     std::vector<Counts> of_image(set.images.size());
     ism::parallel_for(set.images.size(), threads,
                       [&](std::size_t i) { of_image[i] = counts_of(set.images[i], model); });

@@ -155,8 +155,7 @@ int main(int argc, char** argv) try {
         {"set", "images a class", "way", "mean AP %", "draws", "training s", "ms/image"}};
     for (const std::string& set : sets) {
         const ism::Dataset train = ism::read_dataset(data / set / "train.json"),
-                           val = ism::select_classes(ism::read_dataset(data / set / "val.json"),
-                                                     train.class_names);
+                           val = bench::held_out(data / set, train.class_names);
         for (const std::size_t count : counts) {
             std::vector<std::pair<std::string, Sum>> sums;
             for (std::uint64_t draw = 1; draw <= draws; ++draw) {

@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/detect/detect.hpp"
 #include "ism/detect/proposals.hpp"
@@ -25,6 +30,14 @@ using ProgramModel = ism::TypedModel<ism::HessianLaplace, ism::RootSift>;
         set.class_names, ism::training_set(set), {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
         options.features, threads);
     return ProgramModel(ism::learn_templates(ism::learn(features, options), features, templates, threads));
+}
+
+/// @brief What figures are told for: test.json of a set's folder, or val.json, with the classes of a model.
+[[nodiscard]] inline ism::Dataset held_out(const std::filesystem::path& folder,
+                                           const std::vector<std::string>& class_names) {
+    const bool has_test = std::filesystem::exists(folder / "test.json");
+    return ism::select_classes(ism::read_dataset(folder / (has_test ? "test.json" : "val.json")),
+                               class_names);
 }
 
 /// @brief How `ism detect` searches with templates by its defaults.

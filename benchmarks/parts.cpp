@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+
+// What each part of the way on colour images brings: mean AP at IoU .5 and mean IoU of masks, learnt from
+// train.json, with the defaults of the library and without one part after another.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/photographs.hpp"
+#include "support/program_model.hpp"
+#include "support/rows.hpp"
+#include <CLI/CLI.hpp>
+
+#include "ism/core/thread_pool.hpp"
+#include "ism/dataset/coco.hpp"
+#include "ism/detect/exemplar_segmenter.hpp"
+#include "ism/detect/template_recognition.hpp"
+#include "ism/evaluate/detections.hpp"
+#include "ism/train/learn_exemplars.hpp"
+
+namespace {
+
+using Find = std::function<ism::Detections(const ism::Frame&)>;
+
+/// The default way, or the way without a part.
+struct Way {
+    std::string name;
+    Find find;
+};
+
+void take_out_colors(ism::RgbImage& image) {
+    for (ism::Rgb& pixel : image.pixels()) {
+        const auto gray = static_cast<std::uint8_t>((pixel.r + pixel.g + pixel.b) / 3);
+        pixel = {gray, gray, gray};
+    }
+}
+
+[[nodiscard]] bench::ProgramModel judged(const ism::Model& words, const ism::TrainingFeatures& features,
+                                         const ism::TemplateOptions& templates, unsigned threads) {
+    return bench::ProgramModel(ism::learn_exemplars(ism::learn_templates(words, features, templates, threads),
+                                                    features, 300, threads));
+}
+
+/// Detects by a recognition with a model of its own.
+template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
+[[nodiscard]] Find finder(bench::ProgramModel model,
+                          const ism::Recognition<ism::Jism, ism::EpanechnikovKernel, R, S, V>& recognition) {
+    return [model = std::move(model), recognition](const ism::Frame& frame) {
+        return ism::detect(model, frame, recognition, 1);
+    };
+}
+
+[[nodiscard]] std::vector<Way> ways_of(const ism::Dataset& train, unsigned threads) {
+    ism::TrainOptions options;
+    options.threads = threads, options.features.pixels = true;
+    auto features = ism::extract_training_features(train.class_names, ism::training_set(train),
+                                                   {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
+                                                   options.features, threads);
+    const ism::Model words = ism::learn(features, options);
+    const auto recognition = ism::template_recognition<ism::Jism>(ism::ExemplarSegmenter{});
+    const bench::ProgramModel model = judged(words, features, {}, threads);
+
+    std::vector<Way> ways = {{"all parts", finder(model, recognition)}};
+    const auto add = [&](const char* name, Find find) { ways.push_back({name, std::move(find)}); };
+    bench::ProgramModel changed = model;
+    changed.word_weight = 0;
+    add("templates without words", finder(changed, recognition));
+    add("no mining of negatives",
+        finder(judged(words, features, {.mining_rounds = 0}, threads), recognition));
+    add("no jittered copies", finder(judged(words, features, {.jittered_copies = 0}, threads), recognition));
+    auto other = recognition;
+    other.rescorer.max_classes = 1;
+    add("asked about their own class alone", finder(model, other));
+    other = recognition;
+    other.options = {}, other.bandwidth = ism::default_bandwidth<ism::Jism>();
+    add("hypotheses as votes alone find them", finder(model, other));
+    other = recognition;
+    other.verifier.max_inside = 1;
+    add("parts of objects not suppressed", finder(model, other));
+    add("masks of patches", finder(model, ism::template_recognition<ism::Jism>()));
+    add("votes and words (no templates)", finder(model, ism::Recognition<ism::Jism>{}));
+    add("votes alone",
+        finder(model, ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer>{}));
+    for (ism::TrainingView& view : features.views) take_out_colors(view.pixels);
+    add("no colours",
+        [find = finder(judged(words, features, {}, threads), recognition)](const ism::Frame& frame) {
+            ism::Frame gray = frame;
+            take_out_colors(gray.color);
+            return find(gray);
+        });
+    return ways;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    std::filesystem::path data = bench::data_folder();
+    std::vector<std::string> sets = {"four-class", "sysu-shapes", "weizmann-horses", "msrc"};
+    unsigned threads = 0;
+    CLI::App app("What each part of the way on colour images brings.");
+    app.add_option("--data", data, "folder of the data sets");
+    app.add_option("--sets", sets, "with train.json, and test.json or val.json")->delimiter(',');
+    app.add_option("--threads", threads, "0 = as many as the machine has");
+    CLI11_PARSE(app, argc, argv);
+
+    std::vector<std::vector<std::string>> cells = {{"mean AP %, mean mask IoU %"}};
+    for (const std::string& set : sets) {
+        const ism::Dataset train = ism::read_dataset(data / set / "train.json"),
+                           test = bench::held_out(data / set, train.class_names);
+        cells[0].push_back(set), cells[0].push_back("");
+        const std::vector<Way> ways = ways_of(train, threads);
+        for (std::size_t w = 0; w < ways.size(); ++w) {
+            std::vector<ism::Detections> found(test.images.size());
+            ism::parallel_for(test.images.size(), threads, [&](std::size_t i) {
+                found[i] = ways[w].find(ism::read_frame(test.images[i]));
+            });
+            const auto mean = ism::evaluate(test, found, ism::IouRule{}).mean;
+            if (cells.size() <= w + 1) cells.push_back({ways[w].name});
+            cells[w + 1].push_back(bench::number(100 * mean.ap, 1));
+            cells[w + 1].push_back(bench::number(100 * mean.mask_iou, 1));
+            std::fprintf(stderr, "%s, %s: %s, %s\n", set.c_str(), ways[w].name.c_str(),
+                         cells[w + 1].end()[-2].c_str(), cells[w + 1].back().c_str());
+        }
+    }
+    std::fputs(ism::align_columns(cells).c_str(), stdout);
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "parts: %s\n", error.what());
+    return 1;
+}
