@@ -80,10 +80,11 @@ elseif(WAY STREQUAL "own_libraries")
         message(STATUS "skipped: nanoflann or stb is not installed")
         return()
     endif()
-    # Another nanoflann: what its version 1.5 calls otherwise is called so.
+    # Another nanoflann: what its versions 1.5 and 1.7 call otherwise is called so.
     file(READ "${nanoflann}/nanoflann.hpp" text)
     string(REGEX REPLACE "NANOFLANN_VERSION 0x[0-9a-fA-F]+" "NANOFLANN_VERSION 0x999\n#define OWN_NANOFLANN 1" text "${text}")
     string(REGEX REPLACE "SearchParams([^a-zA-Z_])" "SearchParameters\\1" text "${text}")
+    string(REPLACE "decltype(result.worstDist())" "typename RESULTSET::DistanceType" text "${text}")
     file(WRITE "${SCRATCH}/own/nanoflann.hpp" "${text}")
     file(COPY "${stb}/stb/stb_image.h" "${stb}/stb/stb_image_write.h" DESTINATION "${SCRATCH}/own/stb")
     file(APPEND "${SCRATCH}/own/stb/stb_image.h" "\n#define OWN_STB 1\n")

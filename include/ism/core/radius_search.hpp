@@ -92,15 +92,16 @@ private:
     };
 
 #if ISM_HAS_NANOFLANN
-    /// A result set of our own: those of nanoflann, and what they hold, differ between versions 1.4 and 1.5.
+    /// A result set of our own: those of nanoflann, and what they hold, differ between its versions.
     struct Candidates {
+        using DistanceType = double;  // asked for by version 1.7, as sort() is
         std::vector<std::uint32_t>& found;
         double limit;
         [[nodiscard]] double worstDist() const { return limit; }
         [[nodiscard]] bool full() const { return true; }
         [[nodiscard]] bool empty() const { return found.empty(); }
         [[nodiscard]] std::size_t size() const { return found.size(); }
-        void sort() {}  // asked for by versions from 1.5 on
+        void sort() {}
         bool addPoint(double /*sq_distance*/, std::uint32_t index) {
             found.push_back(index);
             return true;
