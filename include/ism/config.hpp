@@ -24,7 +24,7 @@
 #endif
 
 /// @brief 1 where the headers that read or write image files can be included (stb is installed).
-#if __has_include(<stb/stb_image.h>) && __has_include(<stb/stb_image_write.h>)
+#if __has_include(<stb_image.h>) || __has_include(<stb/stb_image.h>)
 #define ISM_HAS_STB 1
 #else
 #define ISM_HAS_STB 0

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#if __has_include(<stb/stb_image.h>)
-#include <stb/stb_image.h>
-#else
+#if __has_include(<stb_image.h>)
 #include <stb_image.h>
+#else
+#include <stb/stb_image.h>
 #endif
 
 #include "ism/core/image.hpp"

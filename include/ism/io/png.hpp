@@ -10,10 +10,10 @@
 #include <filesystem>
 #include <vector>
 
-#if __has_include(<stb/stb_image_write.h>)
-#include <stb/stb_image_write.h>
-#else
+#if __has_include(<stb_image_write.h>)
 #include <stb_image_write.h>
+#else
+#include <stb/stb_image_write.h>
 #endif
 
 #include "ism/core/image.hpp"

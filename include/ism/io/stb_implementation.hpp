@@ -7,6 +7,8 @@
 /// include "ism/io/images.hpp" alone. A program that compiles stb already leaves this header out.
 #pragma once
 
+#include "ism/config.hpp"
+
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpragmas"
@@ -29,16 +31,14 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_TRUETYPE_IMPLEMENTATION
-#if __has_include(<stb/stb_image.h>)
-#include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
-#include <stb/stb_truetype.h>
-#else
+#if __has_include(<stb_image.h>)
 #include <stb_image.h>
 #include <stb_image_write.h>
 #include <stb_truetype.h>
-
-#include "ism/config.hpp"
+#else
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+#include <stb/stb_truetype.h>
 #endif
 #undef STB_IMAGE_IMPLEMENTATION
 #undef STB_IMAGE_WRITE_IMPLEMENTATION

@@ -17,10 +17,10 @@
 #include <utility>
 #include <vector>
 
-#if __has_include(<stb/stb_truetype.h>)
-#include <stb/stb_truetype.h>
-#else
+#if __has_include(<stb_truetype.h>)
 #include <stb_truetype.h>
+#else
+#include <stb/stb_truetype.h>
 #endif
 
 #include "ism/core/image.hpp"
