@@ -29,7 +29,7 @@ class IsmConan(ConanFile):
         copy(self, "include/ism/*.hpp", root, self.export_sources_folder)
 
     def requirements(self):
-        self.requires("nanoflann/1.5.5")
+        self.requires("nanoflann/1.6.0")
         self.requires("nlohmann_json/3.11.3")
         self.requires("stb/cci.20240531")
 

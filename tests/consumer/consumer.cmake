@@ -19,6 +19,18 @@ foreach(way include_path single_header pkg_config own_libraries)
                      "-DHINTS=${hints}" -P "${test_dir}/consumer/compile.cmake")
     set_tests_properties(consumer/${way} PROPERTIES LABELS consumer TIMEOUT 600 COST 60 SKIP_REGULAR_EXPRESSION "skipped: ")
 endforeach()
+# The recipes of packaging/, run by stand-ins of vcpkg and Conan.
+add_test(NAME consumer/vcpkg
+         COMMAND "${CMAKE_COMMAND}" "-DISM_SOURCE=${PROJECT_SOURCE_DIR}" "-DSCRATCH=${test_build_dir}/consumer/vcpkg" "-DCOMPILER=${CMAKE_CXX_COMPILER}"
+                 "-DGENERATOR=${CMAKE_GENERATOR}" "-DVERSION=${PROJECT_VERSION}" "-DHINTS=${hints}" -P "${test_dir}/consumer/vcpkg.cmake")
+find_program(ISM_PYTHON3 python3)
+if(ISM_PYTHON3)
+    add_test(NAME consumer/conan COMMAND "${ISM_PYTHON3}" "${test_dir}/consumer/conan.py" "${PROJECT_SOURCE_DIR}" "${test_build_dir}/consumer/conan"
+             "${CMAKE_CXX_COMPILER}" "${CMAKE_GENERATOR}" "${PROJECT_VERSION}" "${hints}")
+else()
+    add_test(NAME consumer/conan COMMAND "${CMAKE_COMMAND}" -E echo "skipped: python3 is not installed")
+endif()
+set_tests_properties(consumer/vcpkg consumer/conan PROPERTIES LABELS consumer TIMEOUT 300 SKIP_REGULAR_EXPRESSION "skipped: ")
 # Without the libraries that only some headers need: they are left out in turn when configuring …
 set(optional Eigen3 nanoflann nlohmann_json stb CLI11 Catch2 OpenCV PCL pybind11)
 list(TRANSFORM optional REPLACE "(.+)" "-DCMAKE_DISABLE_FIND_PACKAGE_\\1=ON" OUTPUT_VARIABLE without)
