@@ -4,27 +4,23 @@
 #include <atomic>
 #include <cstdio>
 #include <deque>
+#include <numeric>
 
 #include "commands.hpp"
-#include "data.hpp"
+#include "detect_input.hpp"
 #include "detect_page.hpp"
 #include "extractors.hpp"
-#include "image_list.hpp"
 #include "input.hpp"
 #include "output.hpp"
-#include "pictures.hpp"
 #include "progress.hpp"
 #include "spaces.hpp"
 #include "tell.hpp"
 #include <unistd.h>
 
-#include "ism/core/nearest_name.hpp"
 #include "ism/core/thread_pool.hpp"
-#include "ism/dataset/read_images.hpp"
 #include "ism/dataset/to_results.hpp"
 #include "ism/detect/frame_matcher.hpp"
 #include "ism/detect/metric.hpp"
-#include "ism/model_file/model_file.hpp"
 #include "ism/show/overlay.hpp"
 
 namespace program {
@@ -35,69 +31,6 @@ namespace {
 
 /// Pictures in a report: of so many images, with the four pictures of so many detections each.
 constexpr std::size_t report_images = 12, report_rows = 2;
-
-/// The pictures of the command line as a data set, numbered from 1; their sizes are read when they are
-/// checked.
-ism::Dataset as_dataset(const ImageList& list, const DetectCommand& command, const ism::ShapeModel& shapes) {
-    ism::Dataset dataset{
-        .source = {}, .class_names = shapes.class_names, .category_ids = ism::result_category_ids(shapes)};
-    for (const NamedImage& image : list.images())
-        dataset.images.push_back({.id = std::int64_t(dataset.images.size()) + 1,
-                                  .file = image.file,
-                                  .depth_file = command.depth,
-                                  .depth_scale = command.depth_scale,
-                                  .camera = command.camera});
-    return dataset;
-}
-
-/// Where the classes of a data set are only those that its labels name, or none: adds those of the model.
-void add_classes(ism::Dataset& dataset, const ism::ShapeModel& shapes) {
-    if (dataset.classes_listed && !dataset.class_names.empty()) return;
-    for (const std::string& name : shapes.class_names) {
-        const auto& known = dataset.class_names;
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        dataset.class_names.push_back(name);
-        dataset.category_ids.push_back(std::int64_t(dataset.class_names.size()));
-    }
-}
-
-/// Makes sure that a labelled data set has the classes of the model, and tells where their numbers differ.
-/// @throws ism::Error where it lacks one.
-void check_classes(const ism::Dataset& dataset, const ism::ShapeModel& shapes) {
-    const auto labelled = [](const ism::DatasetImage& image) { return !image.objects.empty(); };
-    if (!dataset.classes_listed) return;
-    if (std::none_of(dataset.images.begin(), dataset.images.end(), labelled)) return;
-    const std::vector<std::int64_t> ids = ism::result_category_ids(shapes);
-    for (std::size_t c = 0; c < ids.size(); ++c) {
-        const std::string& name = shapes.class_names[c];
-        const auto found = std::find(dataset.class_names.begin(), dataset.class_names.end(), name);
-        if (found == dataset.class_names.end())
-            throw ism::Error(ism::join_text("class '", name, "' of the model: expected a class of '",
-                                            dataset.source.string(), "' (", list_text(dataset.class_names),
-                                            "), got none of this name",
-                                            ism::did_you_mean(name, dataset.class_names), "; the model has ",
-                                            list_text(shapes.class_names)));
-        const std::int64_t there = dataset.category_ids[std::size_t(found - dataset.class_names.begin())];
-        if (there == ids[c]) continue;
-        std::fprintf(
-            stderr,
-            "ism: note: class '%s' has category id %lld in '%s'; results have the model's, %lld, and "
-            "the name, by which ism evaluate goes\n",
-            name.c_str(), static_cast<long long>(there), dataset.source.string().c_str(),
-            static_cast<long long>(ids[c]));
-        return;
-    }
-}
-
-/// @throws ism::Error where the space needs depth and no image has a depth file.
-void check_depth(const DetectCommand& command, const ism::Dataset& dataset) {
-    if (!needs_depth(command.search.space)) return;
-    const bool any = std::any_of(dataset.images.begin(), dataset.images.end(),
-                                 [](const ism::DatasetImage& image) { return !image.depth_file.empty(); });
-    ism::expect(any, ism::lazy_text("vote space ", command.search.space),
-                command.images.empty() ? "depth_file_name in '" + command.data.string() + "'" : "--depth",
-                "no depth");
-}
 
 /// Whether --space auto can choose metric: the model knows it, and nothing is asked for that is not of it.
 bool metric_allowed(const ism::Model& model, const SearchOptions& search) {
@@ -117,17 +50,6 @@ std::string spaces_text(std::size_t in_metres, std::size_t images, bool may_be_m
     if (in_metres > 0)
         return ism::join_text("metric; jism for ", images - in_metres, " images without depth and camera");
     return may_be_metric ? "jism, for want of depth and camera: no positions, and less is found" : "jism";
-}
-
-/// Reads a picture of the command line, and tells its data set how large it is.
-ism::Frame picture_frame(ism::DatasetImage& image) {
-    ism::Picture picture = read_picture(image.file);
-    image.width = picture.gray.width(), image.height = picture.gray.height();
-    if (!image.depth_file.empty()) return ism::read_frame(image, read_picture);
-    ism::Frame frame{
-        .gray = std::move(picture.gray), .color = std::move(picture.color), .camera = image.camera};
-    ism::at_place(ism::file_text(image.file), [&] { ism::check(frame); });
-    return frame;
 }
 
 /// Whether an output is standard output.
@@ -160,6 +82,17 @@ void write_output(const fs::path& file, std::string_view text) {
         ism::write_file(file, text);
 }
 
+/// Whether what was found is told: always of pictures, of a data set where no file keeps it.
+bool is_told(const DetectCommand& command) {
+    return !command.images.empty() || (command.results.empty() && command.json.empty() &&
+                                       command.report.empty() && command.overlay_folder.empty());
+}
+
+/// Whether standard output is that of an option.
+bool is_taken(const DetectCommand& command) {
+    return is_standard_output(command.results) || is_standard_output(command.json);
+}
+
 /// The most probable of what was left out, as a result without a mask.
 std::optional<ism::Result> next_best(const ism::Detections& found, const ism::DatasetImage& image,
                                      const ism::ShapeModel& shapes) {
@@ -170,12 +103,151 @@ std::optional<ism::Result> next_best(const ism::Detections& found, const ism::Da
     return std::move(results[0]);
 }
 
-/// The objects on standard output, and on stderr the images without.
-void tell_objects(std::span<const FoundInImage> found) {
+/// Pictures of what was found that are written beside the images, or in a folder.
+struct Overlays {
+    std::vector<fs::path> beside = {};  ///< of each image of the command line
+    ism::Font font = {};
+    std::optional<OverlayFiles> folder = {};
+};
+
+void add_overlays(Overlays& overlays, const DetectCommand& command, const DetectInput& input) {
+    const auto& names = input.model.shapes.class_names;
+    if (!command.overlay_folder.empty()) {
+        overlays.folder.emplace(command.overlay_folder, input.dataset, names);
+        make_folder(command.overlay_folder);
+    }
+    if (command.show) overlays.font = overlay_font(names);
+}
+
+void write_overlays(const Overlays& overlays, const DetectInput& input, std::size_t i,
+                    const ism::RgbImage& color, const ism::Detections& found) {
+    const auto& names = input.model.shapes.class_names;
+    if (overlays.folder) overlays.folder->write(i, color, found, names);
+    if (!overlays.beside.empty())
+        ism::write_png(overlays.beside[std::size_t(input.dataset.images[i].id) - 1],
+                       ism::draw_detections(color, found, names, {.font = &overlays.font}));
+}
+
+/// A model made ready to search frames. Several images are shared out among the threads; on a single one all
+/// threads work together.
+class Searcher {
+public:
+    Searcher(const ism::Model& model, const DetectCommand& command, std::size_t images)
+        : pool(images > 1 ? command.threads : 1),
+          search_(command.search),
+          may_be_metric_(metric_allowed(model, search_)),
+          extractors_(extractors_of(model)) {
+        for (const ism::Model& rgbd : model.rgbd) rgbd_extractors_ = extractors_of(rgbd);
+        for (unsigned worker = 0; worker < pool.size(); ++worker) {
+            ism::ThreadPool& own = inner_pools_.emplace_back(images > 1 ? 1 : command.threads);
+            matchers_.emplace_back(model, extractors_, own);
+            for (const ism::Model& rgbd : model.rgbd)
+                rgbd_matchers_.emplace_back(rgbd, rgbd_extractors_, own);
+        }
+    }
+
+    [[nodiscard]] bool searches_in_metres(const ism::Frame& frame) const {
+        return space_of(frame, search_.space, may_be_metric_) == metric_space;
+    }
+
+    [[nodiscard]] ism::Detections find(const ism::Frame& frame, unsigned worker, bool explain) {
+        SearchOptions search = search_;
+        search.explain = explain;
+        search.space = space_of(frame, search.space, may_be_metric_);
+        return find_objects(searches_in_metres(frame)
+                                ? rgbd_matchers_[worker].scene(frame, ism::match_in<ism::Metric>())
+                                : matchers_[worker].scene(frame),
+                            search);
+    }
+
+    ism::ThreadPool pool;
+
+private:
+    const SearchOptions& search_;
+    bool may_be_metric_;
+    std::vector<ism::AnyExtractor> extractors_, rgbd_extractors_;
+    std::deque<ism::ThreadPool> inner_pools_;  // one a worker
+    std::deque<ism::FrameMatcher> matchers_, rgbd_matchers_;
+};
+
+/// What came of a run.
+struct Outcome {
+    std::vector<FoundInImage> found;  ///< in each image
+    std::string space;                ///< in which was searched
+    double search_seconds = 0;
+    [[nodiscard]] std::size_t objects() const {
+        return std::accumulate(
+            found.begin(), found.end(), std::size_t(0),
+            [](std::size_t sum, const FoundInImage& image) { return sum + image.results.size(); });
+    }
+};
+
+/// Searches all images, and draws what is found.
+Outcome search_images(Searcher& searcher, const DetectCommand& command, const DetectInput& input,
+                      const Overlays& overlays) {
+    const ism::ShapeModel& shapes = input.model.shapes;
+    const std::size_t count = input.dataset.images.size();
+    Outcome outcome{.found = std::vector<FoundInImage>(count), .space = command.search.space};
+    std::atomic<std::size_t> in_metres = 0;
+    ProgressLine progress;
+    searcher.pool.for_each(count, [&](std::size_t i, unsigned worker) {
+        const ism::DatasetImage& image = input.dataset.images[i];
+        const auto frame = frame_of(input, i);
+        if (searcher.searches_in_metres(*frame)) ++in_metres;
+        const ism::Detections found = searcher.find(*frame, worker, overlays.folder.has_value());
+        FoundInImage& here = outcome.found[i];
+        here = {.name = input.names[i],
+                .width = image.width,
+                .height = image.height,
+                .results = ism::to_results(found, image, shapes)};
+        if (command.images.empty()) here.image_id = image.id;
+        if (here.results.empty()) here.next_best = next_best(found, image, shapes);
+        write_overlays(overlays, input, i, frame->color, found);
+        progress.step("detecting", count);
+    });
+    if (command.search.space == auto_space)
+        outcome.space = spaces_text(in_metres, count, metric_allowed(input.model, command.search));
+    return outcome;
+}
+
+/// Writes the page; the images that it shows are looked at once more, to be explained.
+void write_report(Searcher& searcher, const DetectCommand& command, const DetectInput& input,
+                  const Outcome& outcome) {
+    std::vector<std::vector<ism::Result>> results;
+    for (const FoundInImage& image : outcome.found) results.push_back(image.results);
+    DetectPage page(input.dataset, results, input.model.shapes.class_names, input.names, report_images);
+    searcher.pool.for_each(page.images().size(), [&](std::size_t k, unsigned worker) {
+        const auto frame = frame_of(input, page.images()[k]);
+        page.add(k, frame->color, searcher.find(*frame, worker, true), report_rows, command.page,
+                 input.model.rgbd.empty() ? std::span<const ism::TrainingObject>()
+                                          : input.model.rgbd[0].shapes.objects);
+    });
+    write_page(command.report,
+               page.report("Detections", {{"model", command.model.filename().string()},
+                                          {"vote space", outcome.space},
+                                          {"images", std::to_string(outcome.found.size())},
+                                          {"detections", std::to_string(outcome.objects())}}),
+               command.page);
+}
+
+/// Writes what was found.
+void write_outcome(const DetectCommand& command, const Outcome& outcome) {
+    if (!command.results.empty()) {
+        std::vector<ism::Result> all;
+        for (const FoundInImage& image : outcome.found)
+            all.insert(all.end(), image.results.begin(), image.results.end());
+        write_output(command.results, ism::results_text(all, ism::file_text(command.results)));
+    }
+    if (!command.json.empty()) {
+        std::string json;
+        for (const FoundInImage& image : outcome.found) json += json_line(image);
+        write_output(command.json, json);
+    }
+    if (!is_told(command) || is_taken(command)) return;
     if (isatty(STDOUT_FILENO) != 0)
-        std::fputs(object_table(found).c_str(), stdout);
+        std::fputs(object_table(outcome.found).c_str(), stdout);
     else
-        for (const FoundInImage& image : found) std::fputs(object_lines(image).c_str(), stdout);
+        for (const FoundInImage& image : outcome.found) std::fputs(object_lines(image).c_str(), stdout);
     std::fflush(stdout);
 }
 
@@ -194,171 +266,59 @@ void tell_nothing_found(std::span<const FoundInImage> found) {
                      count_text(without - most_named, "image").c_str());
 }
 
+/// How many, how fast, and where, of pictures.
+void sum_up_pictures(const DetectCommand& command, const DetectInput& input, const Outcome& outcome,
+                     const Overlays& overlays, double seconds) {
+    const std::size_t count = outcome.found.size();
+    std::fprintf(stderr, "%s in %s%s, %.1f s, %.0f ms an image (%u threads); space %s\n",
+                 count_text(outcome.objects(), "object").c_str(), count_text(count, "image").c_str(),
+                 input.skipped > 0 ? ism::join_text(", ", input.skipped, " skipped").c_str() : "", seconds,
+                 1000 * outcome.search_seconds / double(count), ism::thread_count(command.threads),
+                 outcome.space.c_str());
+    if (command.show)
+        std::fprintf(stderr, "shown in %s%s\n",
+                     overlays.beside[std::size_t(input.dataset.images[0].id) - 1].string().c_str(),
+                     count > 1 ? ism::join_text(" and ", count - 1, " more").c_str() : "");
+}
+
+/// The same of a data set; on standard output, where that does not hold what was found.
+void sum_up_data(const DetectCommand& command, const DetectInput& input, const Outcome& outcome,
+                 double seconds) {
+    const std::size_t count = outcome.found.size();
+    std::FILE* const summary = is_told(command) || is_taken(command) ? stderr : stdout;
+    std::fprintf(summary, "images      %zu\n", count);
+    if (input.skipped > 0) std::fprintf(summary, "skipped     %zu\n", input.skipped);
+    if (command.search.space == auto_space) std::fprintf(summary, "space       %s\n", outcome.space.c_str());
+    std::fprintf(summary, "detections  %zu\n", outcome.objects());
+    std::fflush(summary);
+    std::fprintf(stderr, "seconds     %.1f\n", seconds);
+    std::fprintf(stderr, "ms/image    %.0f (%u threads)\n", 1000 * outcome.search_seconds / double(count),
+                 ism::thread_count(command.threads));
+}
+
 }  // namespace
 
 void run_detect(const DetectCommand& command) {
     const Stopwatch watch;
-    const bool pictures = !command.images.empty();
     const ImageList list(command.images);
     check_outputs(command, list);
-    const std::vector<fs::path> shown = command.show ? overlay_files(list.images()) : std::vector<fs::path>();
-    const ism::Model model = ism::load_model(command.model);
-    const ism::ShapeModel& shapes = model.shapes;
-    ism::Dataset dataset = pictures ? as_dataset(list, command, shapes)
-                                    : read_data(command.data, ism::DatasetPart::test, command.skip_bad);
-    add_classes(dataset, shapes);
-    check_classes(dataset, shapes);
-    check_depth(command, dataset);
-    ism::expect(command.search.space != metric_space || !model.rgbd.empty(), "--space metric",
-                "a model learnt from images with depth and camera", "one without");
-    Doubts doubts;
-    std::optional<ism::Frame> only;  // a single picture is read once
-    const auto check_image = [&](ism::DatasetImage& image) {
-        if (needs_depth(command.search.space) && image.depth_file.empty())
-            throw ism::FileError(ism::file_text(image.file) + ": expected a depth image beside it, got none");
-        if (command.search.space == metric_space && !image.camera)
-            throw ism::FileError(ism::file_text(image.file) + ": expected its camera, got none");
-        ism::Frame frame = pictures ? picture_frame(image) : ism::read_frame(image, read_picture);
-        if (!frame.depth_m.empty())
-            doubts.add(image.depth_file, ism::depth_scale_doubt(frame.depth_m, image.depth_scale));
-        if (pictures && list.images().size() == 1) only = std::move(frame);
-    };
-    const std::size_t skipped =
-        check_images(dataset, command.threads, command.skip_bad, [&](ism::DatasetImage& image) {
-            try {
-                check_image(image);
-            } catch (const ism::Error& error) {
-                throw ism::FileError(list.told(error.what()));
-            }
-        });
-    doubts.tell();
-    std::optional<OverlayFiles> overlays;
-    if (!command.overlay_folder.empty()) {
-        overlays.emplace(command.overlay_folder, dataset, shapes.class_names);
-        make_folder(command.overlay_folder);
-    }
+    Overlays overlays;
+    if (command.show) overlays.beside = overlay_files(list.images());
+    const DetectInput input = read_detect_input(command, list);
+    add_overlays(overlays, command, input);
 
-    const ism::Font font = command.show ? overlay_font(shapes.class_names) : ism::Font();
-    const std::size_t count = dataset.images.size();
-    const auto name_of = [&](const ism::DatasetImage& image) {
-        return pictures ? list.images()[std::size_t(image.id) - 1].name : short_name(dataset, image);
-    };
-    const bool auto_metric = metric_allowed(model, command.search);
-    std::vector<std::vector<ism::Result>> results(count);
-    std::vector<std::optional<ism::Result>> next(count);
-    std::optional<DetectPage> page;
-    double search_seconds = 0;
-    std::atomic<std::size_t> in_metres = 0;
-    {
-        const Stopwatch search_watch;
-        ProgressLine progress;
-        // Several images are shared out among the threads; on a single one all threads work together.
-        const unsigned inner = count > 1 ? 1 : command.threads;
-        ism::ThreadPool pool(count > 1 ? command.threads : 1);
-        const std::vector<ism::AnyExtractor> extractors = extractors_of(model);
-        std::vector<ism::AnyExtractor> rgbd_extractors;
-        for (const ism::Model& rgbd : model.rgbd) rgbd_extractors = extractors_of(rgbd);
-        std::deque<ism::ThreadPool> inner_pools;  // one a worker
-        std::deque<ism::FrameMatcher> matchers, rgbd_matchers;
-        for (unsigned worker = 0; worker < pool.size(); ++worker) {
-            ism::ThreadPool& own = inner_pools.emplace_back(inner);
-            matchers.emplace_back(model, extractors, own);
-            for (const ism::Model& rgbd : model.rgbd) rgbd_matchers.emplace_back(rgbd, rgbd_extractors, own);
-        }
-        const auto find = [&](const ism::Frame& frame, unsigned worker, bool explain) {
-            SearchOptions search = command.search;
-            search.explain = explain;
-            search.space = space_of(frame, search.space, auto_metric);
-            const bool metric = search.space == metric_space;
-            return find_objects(metric ? rgbd_matchers[worker].scene(frame, ism::match_in<ism::Metric>())
-                                       : matchers[worker].scene(frame),
-                                search);
-        };
-        pool.for_each(count, [&](std::size_t i, unsigned worker) {
-            const ism::DatasetImage& image = dataset.images[i];
-            const ism::Frame own = only ? ism::Frame() : ism::read_frame(image, read_picture);
-            const ism::Frame& frame = only ? *only : own;
-            if (space_of(frame, command.search.space, auto_metric) == metric_space) ++in_metres;
-            const ism::Detections found = find(frame, worker, overlays.has_value());
-            results[i] = ism::to_results(found, image, shapes);
-            if (results[i].empty()) next[i] = next_best(found, image, shapes);
-            if (overlays) overlays->write(i, frame.color, found, shapes.class_names);
-            if (command.show)
-                ism::write_png(shown[std::size_t(image.id) - 1],
-                               ism::draw_detections(frame.color, found, shapes.class_names, {.font = &font}));
-            progress.step("detecting", count);
-        });
-        search_seconds = search_watch.seconds();
+    const Stopwatch search_watch;
+    Searcher searcher(input.model, command, input.dataset.images.size());
+    Outcome outcome = search_images(searcher, command, input, overlays);
+    outcome.search_seconds = search_watch.seconds();
 
-        // The images that the report shows are looked at once more, to be explained.
-        if (!command.report.empty()) {
-            std::vector<std::string> names;
-            for (const ism::DatasetImage& image : dataset.images) names.push_back(name_of(image));
-            page.emplace(dataset, results, shapes.class_names, std::move(names), report_images);
-            pool.for_each(page->images().size(), [&](std::size_t k, unsigned worker) {
-                const ism::DatasetImage& image = dataset.images[page->images()[k]];
-                const ism::Frame own = only ? ism::Frame() : ism::read_frame(image, read_picture);
-                const ism::Frame& frame = only ? *only : own;
-                page->add(k, frame.color, find(frame, worker, true), report_rows, command.page,
-                          model.rgbd.empty() ? std::span<const ism::TrainingObject>()
-                                             : model.rgbd[0].shapes.objects);
-            });
-        }
-    }
-
-    std::vector<ism::Result> all;
-    std::vector<FoundInImage> found;
-    std::string json;
-    for (const auto& part : results) all.insert(all.end(), part.begin(), part.end());
-    const std::string space = command.search.space == auto_space ? spaces_text(in_metres, count, auto_metric)
-                                                                 : command.search.space;
-    if (page)
-        write_page(command.report,
-                   page->report("Detections", {{"model", command.model.filename().string()},
-                                               {"vote space", space},
-                                               {"images", std::to_string(count)},
-                                               {"detections", std::to_string(all.size())}}),
-                   command.page);
-    for (std::size_t i = 0; i < count; ++i) {
-        const ism::DatasetImage& image = dataset.images[i];
-        found.push_back({.name = name_of(image),
-                         .width = image.width,
-                         .height = image.height,
-                         .results = std::move(results[i]),
-                         .next_best = std::move(next[i])});
-        if (!pictures) found.back().image_id = image.id;
-        if (!command.json.empty()) json += json_line(found.back());
-    }
-    if (!command.results.empty())
-        write_output(command.results, ism::results_text(all, ism::file_text(command.results)));
-    if (!command.json.empty()) write_output(command.json, json);
-    const bool taken = is_standard_output(command.results) || is_standard_output(command.json);
-    const bool asked =
-        pictures || (command.results.empty() && command.json.empty() && command.report.empty() && !overlays);
-    if (asked && !taken) tell_objects(found);
-    if (asked) tell_nothing_found(found);
-    const double ms = 1000 * search_seconds / double(count);
-    const unsigned threads = ism::thread_count(command.threads);
-    if (pictures) {
-        std::fprintf(stderr, "%s in %s%s, %.1f s, %.0f ms an image (%u threads); space %s\n",
-                     count_text(all.size(), "object").c_str(), count_text(count, "image").c_str(),
-                     skipped > 0 ? ism::join_text(", ", skipped, " skipped").c_str() : "", watch.seconds(),
-                     ms, threads, space.c_str());
-        if (command.show)
-            std::fprintf(stderr, "shown in %s%s\n",
-                         shown[std::size_t(dataset.images[0].id) - 1].string().c_str(),
-                         count > 1 ? ism::join_text(" and ", count - 1, " more").c_str() : "");
-        return;
-    }
-    // What was found is on standard output alone.
-    std::FILE* const summary = asked || taken ? stderr : stdout;
-    std::fprintf(summary, "images      %zu\n", count);
-    if (skipped > 0) std::fprintf(summary, "skipped     %zu\n", skipped);
-    if (command.search.space == auto_space) std::fprintf(summary, "space       %s\n", space.c_str());
-    std::fprintf(summary, "detections  %zu\n", all.size());
-    std::fflush(summary);
-    std::fprintf(stderr, "seconds     %.1f\n", watch.seconds());
-    std::fprintf(stderr, "ms/image    %.0f (%u threads)\n", ms, threads);
+    if (!command.report.empty()) write_report(searcher, command, input, outcome);
+    write_outcome(command, outcome);
+    if (is_told(command)) tell_nothing_found(outcome.found);
+    if (command.images.empty())
+        sum_up_data(command, input, outcome, watch.seconds());
+    else
+        sum_up_pictures(command, input, outcome, overlays, watch.seconds());
 }
 
 }  // namespace program
