@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdio>
 #include <deque>
+#include <map>
+#include <mutex>
 #include <numeric>
 
 #include "commands.hpp"
@@ -92,6 +94,33 @@ bool is_told(const DetectCommand& command) {
 bool is_taken(const DetectCommand& command) {
     return is_standard_output(command.results) || is_standard_output(command.json);
 }
+
+using Line = std::string (*)(const FoundInImage&);
+
+/// What standard output says of an image as soon as it has been searched; nullptr where that waits for all.
+Line line_at_once(const DetectCommand& command) {
+    if (command.json == "-") return json_line;
+    return is_told(command) && !is_taken(command) && isatty(STDOUT_FILENO) == 0 ? object_lines : nullptr;
+}
+
+/// Texts on standard output, each as soon as it and all before it are there. From several threads.
+class InOrder {
+public:
+    void add(std::size_t i, std::string text) {
+        const std::lock_guard lock(mutex_);
+        waiting_.emplace(i, std::move(text));
+        for (; !waiting_.empty() && waiting_.begin()->first == next_; ++next_) {
+            const std::string first = std::move(waiting_.extract(waiting_.begin()).mapped());
+            std::fwrite(first.data(), 1, first.size(), stdout);
+        }
+        std::fflush(stdout);
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::size_t, std::string> waiting_;
+    std::size_t next_ = 0;
+};
 
 /// The most probable of what was left out, as a result without a mask.
 std::optional<ism::Result> next_best(const ism::Detections& found, const ism::DatasetImage& image,
@@ -182,13 +211,16 @@ struct Outcome {
     }
 };
 
-/// Searches all images, and draws what is found.
+/// Searches all images, draws what is found, and tells of each what is told at once.
 Outcome search_images(Searcher& searcher, const DetectCommand& command, const DetectInput& input,
                       const Overlays& overlays) {
     const ism::ShapeModel& shapes = input.model.shapes;
     const std::size_t count = input.dataset.images.size();
+    const Line line = line_at_once(command);
+    const bool lines_shown = line != nullptr && isatty(STDOUT_FILENO) != 0;  // and tell how far it is
     Outcome outcome{.found = std::vector<FoundInImage>(count), .space = command.search.space};
     std::atomic<std::size_t> in_metres = 0;
+    InOrder told;
     ProgressLine progress;
     searcher.pool.for_each(count, [&](std::size_t i, unsigned worker) {
         const ism::DatasetImage& image = input.dataset.images[i];
@@ -203,7 +235,8 @@ Outcome search_images(Searcher& searcher, const DetectCommand& command, const De
         if (command.images.empty()) here.image_id = image.id;
         if (here.results.empty()) here.next_best = next_best(found, image, shapes);
         write_overlays(overlays, input, i, frame->color, found);
-        progress.step("detecting", count);
+        if (line != nullptr) told.add(i, line(here));
+        if (!lines_shown) progress.step("detecting", count);
     });
     if (command.search.space == auto_space)
         outcome.space = spaces_text(in_metres, count, metric_allowed(input.model, command.search));
@@ -230,7 +263,7 @@ void write_report(Searcher& searcher, const DetectCommand& command, const Detect
                command.page);
 }
 
-/// Writes what was found.
+/// Writes what waits for all images.
 void write_outcome(const DetectCommand& command, const Outcome& outcome) {
     if (!command.results.empty()) {
         std::vector<ism::Result> all;
@@ -238,16 +271,13 @@ void write_outcome(const DetectCommand& command, const Outcome& outcome) {
             all.insert(all.end(), image.results.begin(), image.results.end());
         write_output(command.results, ism::results_text(all, ism::file_text(command.results)));
     }
-    if (!command.json.empty()) {
+    if (!command.json.empty() && command.json != "-") {
         std::string json;
         for (const FoundInImage& image : outcome.found) json += json_line(image);
         write_output(command.json, json);
     }
-    if (!is_told(command) || is_taken(command)) return;
-    if (isatty(STDOUT_FILENO) != 0)
+    if (is_told(command) && !is_taken(command) && line_at_once(command) == nullptr)
         std::fputs(object_table(outcome.found).c_str(), stdout);
-    else
-        for (const FoundInImage& image : outcome.found) std::fputs(object_lines(image).c_str(), stdout);
     std::fflush(stdout);
 }
 

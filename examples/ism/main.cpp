@@ -121,7 +121,8 @@ asked for.
 
 --json: one object an image: file, width, height, detections [class, category_id, probability, score, scale,
 bbox, segmentation (COCO run lengths), and where they are known depth_m, position_m, position_error_m];
-image_id of a data set; next_best, the most probable guess, where nothing was found.
+image_id of a data set; next_best, the most probable guess, where nothing was found. Lines to a pipe go out as
+soon as their image is done, in the order of the images.
 
 Category ids are those of the data that the model was trained on (1, 2, ... where it does not know them), also
 with --data; image ids are those of the data, of images on the command line 1, 2, ...

@@ -73,6 +73,26 @@ cmp json.txt file.json || fail "--json FILE is other than --json -"
 cmp lines.txt both.txt || fail "files take the lines away"
 (($(grep -o '"class":' json.txt | wc -l) == $(grep -c '"class":' found.json))) || fail "-o has other objects"
 "${detect[@]}" photos/0.png photos/1.png -o - 2>/dev/null | cmp - found.json || fail "-o - is other than a file"
+
+# A line of JSON goes out as soon as its image is done, in the order of the images. More is told here than a pipe holds, so
+# that until it is read on after the first line the program cannot come to its end, where it writes the file of -o.
+deep=deep
+for _ in {1..12}; do deep+=/$(printf '%0.sx' {1..250}); done
+mkdir -p "$deep"
+for i in {10..27}; do cp photos/$((i % 2)).png "$deep/$i.png"; done
+mkfifo told
+"${detect[@]}" "$deep" --threads 2 --json - -o last.json >told 2>/dev/null &
+exec 3<told
+read -r first <&3
+[[ ! -e last.json ]] || fail "--json - waits until all images are done"
+{ echo "$first" && cat <&3; } >streamed.txt
+exec 3<&-
+wait $! || fail "--json - into a pipe: $?"
+(($(wc -c <streamed.txt) > 70000)) || fail "too little is told to fill a pipe: $(wc -c <streamed.txt)"
+"${detect[@]}" "$deep" --threads 1 --json whole.json >/dev/null 2>&1
+cmp streamed.txt whole.json || fail "--json - is other than --json FILE"
+rm -r deep
+
 "${detect[@]}" --data toys/test.json --json data.json >/dev/null 2>&1
 says '"image_id":2' data.json
 says '"position_m":[' data.json
