@@ -31,6 +31,10 @@ std::string shape(const std::string& label, const std::string& type, const std::
            "}";
 }
 
+/// A mask as labelme 5 paints it: a PNG of one bit a pixel, 5 by 3: .###. ##### ..#..
+const std::string painted =
+    R"("mask":"iVBORw0KGgoAAAANSUhEUgAAAAUAAAADAQAAAABzTfhVAAAADklEQVR4nGMoYPjBoAAABT4BiSJgh7YAAAAASUVORK5CYII=")";
+
 }  // namespace
 
 TEST_CASE("Shapes of labelme become objects: polygons, circles, rectangles and groups") {
@@ -74,6 +78,31 @@ TEST_CASE("Shapes of labelme become objects: polygons, circles, rectangles and g
     CHECK(one.images[0].objects == objects);
 }
 
+TEST_CASE("Painted masks of labelme lie where their points say, also as parts of an object") {
+    const TemporaryFolder folder;
+    write_60_by_50(folder / "a.pgm");
+    const std::string group = painted + R"(,"group_id":3)";
+    ism::write_file(folder / "a.json",
+                    labelme(shape("duck", "mask", "[[10,20],[14,22]]", painted) + "," +
+                            shape("car", "mask", "[[55.6,47.2],[59.9,49.9]]", group) + "," +
+                            shape("car", "mask", "[[54,46],[58,48]]", group) + "," +
+                            shape("car", "polygon", "[[10,10],[20,10],[20,20],[10,20]]", R"("group_id":3)")));
+    const ism::Dataset dataset = ism::read_any_dataset(folder.path());
+    const auto& objects = dataset.images.at(0).objects;
+    REQUIRE(objects.size() == 2);
+    CHECK(objects[0].box == Box{10, 20, 5, 3});
+    const ism::Mask mask = read_mask(dataset.images[0], objects[0]);
+    const std::vector<std::string> rows = {".###.", "#####", "..#.."};
+    for (int y = 0; y < 50; ++y)
+        for (int x = 0; x < 60; ++x) {
+            const bool inside = x >= 10 && x < 15 && y >= 20 && y < 23;
+            CHECK((mask(x, y) != 0) == (inside && rows[std::size_t(y - 20)][std::size_t(x - 10)] == '#'));
+        }
+    // Two painted ones that share 4 pixels, and a square.
+    CHECK(objects[1].box == Box{10, 10, 50, 40});
+    CHECK(mask_area(read_mask(dataset.images[0], objects[1])) == 9 + 9 - 4 + 100);
+}
+
 TEST_CASE("Labels of labelme that make no sense are named by file and shape, or left out") {
     const TemporaryFolder folder;
     write_60_by_50(folder / "a.pgm");
@@ -85,8 +114,27 @@ TEST_CASE("Labels of labelme that make no sense are named by file and shape, or 
         return at == std::string::npos ? message : message.substr(at + 7);
     };
     const std::string good = shape("duck", "polygon", "[[10,10],[20,10],[20,20]]") + ",";
-    CHECK(refused(labelme(good + shape("duck", "line", "[[1,1],[5,1]]"))) ==
-          ", shape 1: shape_type: expected polygon, rectangle or circle, got 'line'");
+    CHECK(
+        refused(labelme(good + shape("duck", "line", "[[1,1],[5,1]]"))) ==
+        ", shape 1: shape_type: expected polygon, rectangle, circle or mask, got 'line', which has no area");
+    CHECK(refused(labelme(good + shape("duck", "cuboid", "[[1,1],[5,1]]"))).ends_with("got 'cuboid'"));
+    const auto refused_mask = [&](const std::string& points, const std::string& mask) {
+        const std::string message = refused(labelme(good + shape("duck", "mask", points, mask)));
+        const std::string place = ", shape 1";
+        return message.starts_with(place) ? message.substr(place.size()) : message;
+    };
+    CHECK(refused_mask("[[1,1],[5,3]]", R"("mask":null)") == ": mask: expected a text, got null");
+    CHECK(refused_mask("[[1,1],[5,3]]", R"("mask":"####")") ==
+          ", mask: base64: expected letters, digits, + and /, got byte 35 at 0");
+    CHECK(refused_mask("[[1,1],[5,3]]", R"("mask":"iVBORw0KGgo=")")
+              .starts_with(", mask: expected a whole image, got"));
+    CHECK(refused_mask("[[1,1],[6,4]]", painted) ==
+          ": points: expected the first and last pixel of a mask of 5x3, got 1, 1 and 6, 4");
+    CHECK(refused_mask("[[5,3],[1,1]]", painted).ends_with("got 5, 3 and 1, 1"));
+    CHECK(refused_mask("[[56,1],[60,3]]", painted) ==
+          ": points: expected a mask within 60x50 pixels, got 56, 1 and 60, 3");
+    CHECK(refused_mask("[[-1,1],[3,3]]", painted).starts_with(": points: expected a mask within 60x50"));
+    CHECK(refused_mask("[[1,1]]", painted) == ": points: expected 2 or more, got an array of 1");
     CHECK(refused(labelme(good + shape("duck", "polygon", "[[1,1],[5,1]]"))) ==
           ", shape 1: points: expected 3 or more, got an array of 2");
     CHECK(refused(labelme(good + shape("duck", "rectangle", "[[1,1],[5]]"))) ==

@@ -69,10 +69,6 @@ bool contains(const std::string& text, std::string_view part) {
 
 const std::string nasty = "<script>\"a\" & 'b'</script>\x01\xff";
 
-std::string base64_of(std::string_view text) {
-    return ism::base64(std::vector<std::uint8_t>(text.begin(), text.end()));
-}
-
 }  // namespace
 
 TEST_CASE("The checker of markup finds faults") {
@@ -95,17 +91,6 @@ TEST_CASE("Escaped text has no markup and no broken bytes") {
     CHECK(ism::escape_markup("\xC0\xBC") == mark + mark);             // a < written too long
     CHECK(ism::escape_markup("\xED\xA0\x80") == mark + mark + mark);  // half of a pair
     CHECK(ism::escape_markup("\xC3<") == mark + "&lt;");
-}
-
-TEST_CASE("Base64 of RFC 4648's examples") {
-    CHECK(base64_of("").empty());
-    CHECK(base64_of("f") == "Zg==");
-    CHECK(base64_of("fo") == "Zm8=");
-    CHECK(base64_of("foo") == "Zm9v");
-    CHECK(base64_of("foob") == "Zm9vYg==");
-    CHECK(base64_of("fooba") == "Zm9vYmE=");
-    CHECK(base64_of("foobar") == "Zm9vYmFy");
-    CHECK(base64_of("\xfb\xff\xbf") == "+/+/");
 }
 
 TEST_CASE("A plot puts points where its axes say and is well-formed") {

@@ -18,11 +18,10 @@
 
 namespace ism::detail {
 
-/// @brief A mask in a file of its own. Figure is what is not transparent; in a file without transparent
-/// pixels it is what is brighter, in any channel, than half of the brightest.
-/// @throws FileError where it cannot be read, or nothing in it is figure.
-[[nodiscard]] inline Mask read_mask_file(const std::filesystem::path& path) {
-    const ImageFile file = open_image(path);
+/// @brief An image as a mask. Figure is what is not transparent; without transparent pixels it is what is
+/// brighter, in any channel, than half of the brightest.
+/// @throws FileError where it is damaged, or nothing in it is figure.
+[[nodiscard]] inline Mask decode_mask(const ImageFile& file) {
     const auto samples = decode(file, 4, stbi_load_from_memory);
     Mask mask(file.width, file.height);
     std::uint8_t brightest = 0, least_alpha = 255;
@@ -39,6 +38,12 @@ namespace ism::detail {
         mask.pixels()[i] = transparent ? samples[4 * i + 3] >= 128 : 2 * light(i) > brightest;
     if (mask_area(mask) == 0) file.refuse("a mask with figure", "one without");
     return turned(std::move(mask), file.orientation);
+}
+
+/// @brief A mask in a file of its own, as by decode_mask().
+/// @throws FileError where it cannot be read, or nothing in it is figure.
+[[nodiscard]] inline Mask read_mask_file(const std::filesystem::path& path) {
+    return decode_mask(open_image(path));
 }
 
 /// @brief Whether an image has transparent pixels: they are then the ground of a mask.

@@ -50,8 +50,8 @@ namespace detail {
 
 /// @brief An image file in memory, complete and within the size limits, not yet decoded.
 struct ImageFile {
-    std::filesystem::path path;
-    std::vector<std::uint8_t> bytes;  ///< at most 2^30
+    std::string place;                ///< what messages call it
+    std::vector<std::uint8_t> bytes;  ///< fewer than 2^31
     int width = 0, height = 0;
     int channels = 0;     ///< 1 grey, 2 grey + alpha, 3 colour, 4 colour + alpha
     bool deep = false;    ///< 16 bits a channel
@@ -62,13 +62,12 @@ struct ImageFile {
         return {orientation >= 5 ? ImageSize{height, width} : stored, stored};
     }
     [[noreturn]] void refuse(std::string_view expected, std::string_view actual) const {
-        throw FileError(join_text(file_text(path), ": expected ", expected, ", got ", actual));
+        throw FileError(join_text(place, ": expected ", expected, ", got ", actual));
     }
 };
 
-[[nodiscard]] inline ImageFile open_image(const std::filesystem::path& path) {
-    constexpr std::uintmax_t most_bytes = std::uintmax_t(1) << 30;
-    ImageFile file{.path = path, .bytes = read_bytes(path, most_bytes)};
+[[nodiscard]] inline ImageFile open_image(std::string place, std::vector<std::uint8_t> bytes) {
+    ImageFile file{.place = std::move(place), .bytes = std::move(bytes)};
     if (file.bytes.empty()) file.refuse("an image", "an empty file");
     const ImageFormat format = image_format(file.bytes);
     if (format == ImageFormat::unknown)
@@ -93,6 +92,11 @@ struct ImageFile {
     file.deep = stbi_is_16_bit_from_memory(file.bytes.data(), int(file.bytes.size())) != 0;
     if (file.deep && format != ImageFormat::png) file.refuse("8 bits a channel in this format", "16 bits");
     return file;
+}
+
+[[nodiscard]] inline ImageFile open_image(const std::filesystem::path& path) {
+    constexpr std::uintmax_t most_bytes = std::uintmax_t(1) << 30;
+    return open_image(file_text(path), read_bytes(path, most_bytes));
 }
 
 template <class Sample>

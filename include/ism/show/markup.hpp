@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -68,22 +67,6 @@ namespace detail {
 /// @brief "#rrggbb"
 [[nodiscard]] inline std::string hex_color(Rgb color) {
     return join_text('#', hex_text(std::uint64_t(color.r) << 16 | std::uint64_t(color.g) << 8 | color.b, 6));
-}
-
-/// @brief Bytes as base64 text (RFC 4648).
-[[nodiscard]] inline std::string base64(std::span<const std::uint8_t> bytes) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](std::size_t k) {
-            return i + k < bytes.size() ? std::uint32_t(bytes[i + k]) : 0;
-        };
-        const std::uint32_t bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k > bytes.size() ? '=' : letters[bits >> (18 - 6 * k) & 63];
-    }
-    return text;
 }
 
 }  // namespace ism

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ism/io/base64.hpp"
 #include "ism/show/color.hpp"
 #include "ism/show/report_labels.hpp"
 #include "ism/show/report_parts.hpp"
