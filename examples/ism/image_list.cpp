@@ -55,13 +55,14 @@ ImageList::ImageList(std::span<const std::string> arguments) {
         if (argument == standard_input) {
             add_standard_input();
         } else if (fs::is_directory(argument, failure)) {
-            add_found(ism::detail::image_files(argument), "folder '" + ism::one_line(argument) + "'");
+            add_found(ism::detail::image_files(argument), "folder '" + ism::one_line(argument) + "'",
+                      "none; folders in it are not looked into");
         } else if (fs::exists(argument, failure) || argument.find_first_of("*?[") == std::string::npos) {
             ism::expect<ism::FileError>(fs::exists(argument, failure), ism::file_text(argument),
                                         "an image to read", "none of this name");
             add(argument);
         } else {
-            add_found(files_of_pattern(argument), "pattern '" + ism::one_line(argument) + "'");
+            add_found(files_of_pattern(argument), "pattern '" + ism::one_line(argument) + "'", "none");
         }
     }
     leave_out_overlays();
@@ -108,10 +109,9 @@ void ImageList::add_standard_input() {
     images_.push_back({temporary_, standard_input});
 }
 
-void ImageList::add_found(std::vector<fs::path> files, const std::string& place) {
+void ImageList::add_found(std::vector<fs::path> files, const std::string& place, const char* none) {
     std::sort(files.begin(), files.end());
-    ism::expect<ism::FileError>(!files.empty(), place, "a file that is an image (PNG, JPEG, BMP, PNM)",
-                                "none");
+    ism::expect<ism::FileError>(!files.empty(), place, "a file that is an image (PNG, JPEG, BMP, PNM)", none);
     for (const fs::path& file : files) add(file);
 }
 

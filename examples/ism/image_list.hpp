@@ -37,7 +37,7 @@ public:
 private:
     void add(const std::filesystem::path& file);
     void add_standard_input();
-    void add_found(std::vector<std::filesystem::path> files, const std::string& place);
+    void add_found(std::vector<std::filesystem::path> files, const std::string& place, const char* none);
     void leave_out_overlays();
     void leave_out_depth();
 

@@ -284,6 +284,8 @@ void run_inspect(const InspectCommand& command) {
             contents.of_set.push_back(ism::join_text("few examples: ", name, " has ", examples[c].size()));
         }
     }
+    if (dataset.class_names.empty())
+        contents.of_set.push_back("no labels: there is nothing to learn from these images");
     std::vector<std::pair<std::string, std::string>> summary = {
         {"images", std::to_string(dataset.images.size())},
         {"without objects", std::to_string(background)},

@@ -356,12 +356,12 @@ int main(int argc, char** argv) {
     try {
         if (is_command)
             program::check_option_names(*app.get_subcommand(first), {arguments.begin() + 1, arguments.end()});
-        std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
-        app.parse(arguments);
+        std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // as CLI11 takes them
+        app.parse(reversed);
     } catch (const CLI::Success& done) {
         return app.exit(done);  // --help, --version
     } catch (const CLI::ParseError& error) {
-        return fail(program::refusal_text(error, first));
+        return fail(program::refusal_text(error, arguments));
     } catch (const std::exception& error) {
         return fail(error.what());
     }

@@ -69,12 +69,20 @@ void check_option_names(const CLI::App& command, const std::vector<std::string>&
     }
 }
 
-std::string refusal_text(const CLI::ParseError& error, const std::string& command) {
-    const std::string text = error.what(), kind = error.get_name();
+std::string refusal_text(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
+    const std::string text = error.what(), kind = error.get_name(), &command = arguments.front();
     const auto before = [&](const char* part) { return text.substr(0, text.find(part)); };
     const std::string help = "; ism " + command + " --help tells more";
-    if (kind == "RequiredError")
-        return command + ": expected " + before(" is required") + ", got none" + help;
+    if (kind == "RequiredError") {
+        const std::string lacking = before(" is required");
+        const auto model = std::find_if(arguments.begin(), arguments.end(), [](const std::string& argument) {
+            return argument.ends_with(".safetensors");
+        });
+        return command + ": expected " + lacking + ", got none" +
+               (lacking == "--model" && model != arguments.end()
+                    ? ": did you mean --model " + shell_word(*model) + "?"
+                    : help);
+    }
     if (kind == "ExcludesError")
         return "expected " + before(" excludes ") + " or " + text.substr(text.find(" excludes ") + 10) +
                ", got both";

@@ -72,6 +72,8 @@ CLI::Option* only(CLI::Option* option, const std::vector<std::string>& words);
 void check_option_names(const CLI::App& command, const std::vector<std::string>& arguments);
 
 /// What CLI11 says is wrong, in this program's words.
-[[nodiscard]] std::string refusal_text(const CLI::ParseError& error, const std::string& command);
+/// @param arguments  the command and those after it
+[[nodiscard]] std::string refusal_text(const CLI::ParseError& error,
+                                       const std::vector<std::string>& arguments);
 
 }  // namespace program

@@ -124,7 +124,9 @@ $line "standard input: expected a whole image, got a truncated PNG" "${detect[@]
 $line "pattern 'none*.png': expected a file that is an image" "${detect[@]}" 'none*.png'
 $line "file 'none.png': expected an image to read, got none of this name" "${detect[@]}" photos/0.png none.png
 mkdir empty
-$line "folder 'empty': expected a file that is an image" "${detect[@]}" empty
+$line "folder 'empty': expected a file that is an image (PNG, JPEG, BMP, PNM), got none; folders in it are not looked into" "${detect[@]}" empty
+$line "detect: expected --model, got none: did you mean --model toys/model.safetensors?" "$ism" detect toys/model.safetensors photos/0.png
+$line "detect: expected --model, got none; ism detect --help tells more" "$ism" detect photos/0.png
 $line "--show: expected files to write beside, got standard input" "${detect[@]}" - --show <photos/0.png
 $line "--json: expected another file than -o, got the same" "${detect[@]}" photos/0.png -o - --json -
 $line "'photos/1.png': expected another file than an input" "${detect[@]}" photos -o photos/1.png

@@ -39,6 +39,8 @@ done
 "$ism" detect --model model-folders --data pictures -o found-pictures >/dev/null
 says '"image_id":1,' found-pictures
 refused_in_a_line "'pictures': expected labels to learn from, got images without" "$ism" train --data pictures -o out
+"$ism" inspect --data pictures >without.txt
+says "no labels: there is nothing to learn from these images" without.txt
 mkdir cows
 cp -r sets/folders/cow cows/
 mkdir cows/background
