@@ -60,6 +60,8 @@ ImageList::ImageList(std::span<const std::string> arguments) {
         } else if (fs::exists(argument, failure) || argument.find_first_of("*?[") == std::string::npos) {
             ism::expect<ism::FileError>(fs::exists(argument, failure), ism::file_text(argument),
                                         "an image to read", "none of this name");
+            ism::expect<ism::FileError>(!argument.ends_with(".json"), ism::file_text(argument), "an image",
+                                        "JSON (a data set goes with --data)");
             add(argument);
         } else {
             add_found(files_of_pattern(argument), "pattern '" + ism::one_line(argument) + "'", "none");

@@ -102,7 +102,7 @@ void run_train(const TrainCommand& command) {
     options.features.pixels = templates;
     ism::Dataset dataset = read_data(command.data, ism::DatasetPart::train, command.skip_bad);
     ism::expect(!dataset.class_names.empty(), ism::file_text(command.data), "labels to learn from",
-                "images without");
+                "images without (labels are folders named as classes, or files of COCO, VOC, YOLO, labelme)");
     if (!command.classes.empty()) dataset = ism::select_classes(dataset, command.classes);
     Doubts doubts;
     const std::size_t skipped =

@@ -123,6 +123,7 @@ $line "standard input: expected an image, got nothing" "${detect[@]}" - </dev/nu
 $line "standard input: expected a whole image, got a truncated PNG" "${detect[@]}" - < <(head -c 2000 photos/0.png)
 $line "pattern 'none*.png': expected a file that is an image" "${detect[@]}" 'none*.png'
 $line "file 'none.png': expected an image to read, got none of this name" "${detect[@]}" photos/0.png none.png
+$line "file 'toys/test.json': expected an image, got JSON (a data set goes with --data)" "${detect[@]}" toys/test.json
 mkdir empty
 $line "folder 'empty': expected a file that is an image (PNG, JPEG, BMP, PNM), got none; folders in it are not looked into" "${detect[@]}" empty
 $line "detect: expected --model, got none: did you mean --model toys/model.safetensors?" "$ism" detect toys/model.safetensors photos/0.png

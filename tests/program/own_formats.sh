@@ -38,7 +38,7 @@ done
 # Images without labels, for detection alone; a class that no label of a data set names.
 "$ism" detect --model model-folders --data pictures -o found-pictures >/dev/null
 says '"image_id":1,' found-pictures
-refused_in_a_line "'pictures': expected labels to learn from, got images without" "$ism" train --data pictures -o out
+refused_in_a_line "'pictures': expected labels to learn from, got images without (labels are folders named as classes" "$ism" train --data pictures -o out
 "$ism" inspect --data pictures >without.txt
 says "no labels: there is nothing to learn from these images" without.txt
 mkdir cows
