@@ -162,9 +162,9 @@ DepthOutcome search_depth(const DepthModels& models, std::span<const Shot> shots
     return all;
 }
 
-std::array<bool, depth_spaces.size()> shows_between(const DepthModels& models, const Shot& shot,
-                                                    double t_ratio) {
-    std::array<bool, depth_spaces.size()> shows{};
+std::array<Between, depth_spaces.size()> shown_between(const DepthModels& models, const Shot& shot,
+                                                       double t_ratio) {
+    std::array<Between, depth_spaces.size()> shows{};
     const std::vector<ism::TrueObject> cars = true_objects(shot);
     if (cars.size() != 2) return shows;
     ism::ThreadPool pool(1);
@@ -189,10 +189,13 @@ std::array<bool, depth_spaces.size()> shows_between(const DepthModels& models, c
         const auto votes = ism::cast_votes<Space>(scene, options.matching, ism::vote_limits(scene, options));
         const auto found = ism::find_hypotheses<ism::EpanechnikovKernel, Space::dimension>(
             scene, votes, ism::default_bandwidth<Space>(), options, ism::describe_in<Space>());
-        for (const ism::Detection& one : found)
-            shows[s] = shows[s] || (one.centre.x > left && one.centre.x < right &&
-                                    share_on(one, scene, cars[0].mask) >= 0.2 &&
-                                    share_on(one, scene, cars[1].mask) >= 0.2);
+        for (const ism::Detection& one : found) {
+            const double way = (one.centre.x - left) / (right - left);
+            if (way > 0 && way < 1 && share_on(one, scene, cars[0].mask) >= 0.2 &&
+                share_on(one, scene, cars[1].mask) >= 0.2)
+                shows[s].of_both = true;
+            if (way > 0.25 && way < 0.75) shows[s].any = true;
+        }
     });
     return shows;
 }

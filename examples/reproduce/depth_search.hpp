@@ -51,10 +51,14 @@ struct DepthOutcome {
                                         std::span<const std::size_t> ways, bool with_reading,
                                         unsigned threads);
 
-/// Whether a space shows something between two objects that both support: a hypothesis of at least `t_ratio`
-/// of the strongest, of which each of them casts at least a fifth, its centre between theirs.
-[[nodiscard]] std::array<bool, depth_spaces.size()> shows_between(const DepthModels& models, const Shot& shot,
-                                                                  double t_ratio);
+/// What a space shows between two objects: hypotheses of at least `t_ratio` of the strongest.
+struct Between {
+    bool of_both =
+        false;         ///< one with its centre between theirs, of whose weight each casts at least a fifth
+    bool any = false;  ///< one in the middle half of the way from one centre to the other
+};
+[[nodiscard]] std::array<Between, depth_spaces.size()> shown_between(const DepthModels& models,
+                                                                     const Shot& shot, double t_ratio);
 
 /// What one way finds in a picture.
 [[nodiscard]] ism::Detections found_in(const DepthModels& models, const Shot& shot, std::size_t way);

@@ -79,6 +79,36 @@ TEST_CASE("A hypothesis with depth has the size of its training objects at its d
     CHECK(ism::describe_hypothesis(1, {{.weight = 1}}, scene).scale == Approx(0.75));
 }
 
+TEST_CASE("Votes for objects at other depths do not support each other") {
+    const ism::Model model = one_word();
+    const ism::Frame frame{.gray = ism::GrayImage(400, 400), .camera = camera};
+    ism::ThreadPool pool(1);
+    ism::Scene scene{.frame = frame, .model = model, .pool = pool};
+    // s·d is .5 m for an object at 1 m and for one as large at 1.25 m: three features and one agree on
+    // (100, 100), one of each on (300, 100).
+    const ism::Feature near{.x = 120, .y = 100, .scale = 4, .depth_m = 0.95f};
+    const ism::Feature far{.x = 116, .y = 100, .scale = 3.2f, .depth_m = 1.2f};
+    scene.features = {near, near, near, far, near, far};
+    scene.features[4].x += 200, scene.features[5].x += 200;
+    for (std::uint32_t f = 0; f < 6; ++f) scene.matches.push_back({f, 0, 1});
+    const auto found = [&]<class Space>(Space, double t_ratio) {
+        const auto votes = ism::cast_votes<Space>(scene, ism::MatchMode::all, {});
+        return ism::find_hypotheses<ism::FlatKernel>(scene, votes, ism::default_bandwidth<Space>(),
+                                                     {.min_relative_score = t_ratio},
+                                                     ism::describe_in<Space>());
+    };
+    const auto flat = found(ism::Jism{}, 0.3), deep = found(ism::Ji3sm3{}, 0.3);
+    REQUIRE(flat.size() == 2);
+    CHECK(flat[0].score == Approx(4));
+    REQUIRE(deep.size() == 2);
+    CHECK(deep[0].score == Approx(3));
+    CHECK(deep[0].support.size() == 3);
+    CHECK(deep[0].depth_m == Approx(1));
+    CHECK(deep[1].score == Approx(1));
+    CHECK(found(ism::Jism{}, 0.4).size() == 2);
+    CHECK(found(ism::Ji3sm3{}, 0.4).size() == 1);
+}
+
 TEST_CASE("Voting confidence is the share of an object's votes in the window") {
     using Vote = ism::Vote<1>;
     const std::vector<Vote> votes{

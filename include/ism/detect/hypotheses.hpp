@@ -49,6 +49,21 @@ namespace detail {
     return placed;
 }
 
+/// Drops the votes for an object at another depth, which agree in s·d if it is of one size.
+/// @return the share of weight that stays
+inline double keep_at_depth(std::vector<Support>& window, const Scene& scene, double depth_m) {
+    double all = 0, kept = 0;
+    drop_if(window, [&](const Support& s) {
+        const double d =
+            centre_depth_m(scene.features[s.feature], scene.model.shapes.occurrence(s.occurrence));
+        const bool other = std::abs(d - depth_m) > Depth::bandwidth;
+        all += s.weight;
+        if (!other) kept += s.weight;
+        return other;
+    });
+    return kept / all;
+}
+
 [[nodiscard]] inline Detection describe_votes(double score, std::vector<Support> window, const Scene& scene,
                                               bool by_depth) {
     const ShapeModel& shapes = scene.model.shapes;
@@ -70,6 +85,7 @@ namespace detail {
             depths.emplace_back(centre_depth_m(f, shapes.occurrence(s.occurrence)), s.weight);
     }
     result.depth_m = weighted_median(std::move(depths));
+    if (by_depth) result.score *= keep_at_depth(window, scene, result.depth_m);
     double total = 0, x = 0, y = 0, scale = 0, width = 0, height = 0, cosine = 0, sine = 0;
     for (const Support& s : window) {
         const Occurrence& o = shapes.occurrence(s.occurrence);
@@ -107,8 +123,10 @@ namespace detail {
     return detail::describe_votes(score, std::move(window), scene, false);
 }
 
-/// @brief The same in a space with depth, where camera, depth and the sizes of training objects in metres
-/// tell the scale better than features do: each vote's object is placed at the depth of the hypothesis.
+/// @brief The same in a space with depth. Only votes for one depth support each other, as Zhang and
+/// Kjellström assume below Eq 5: those farther than Depth::bandwidth from the median do not count, and the
+/// score is less by their share. Camera, depth and the sizes of training objects in metres tell the scale
+/// better than features do: each vote's object is placed at the depth of the hypothesis.
 [[nodiscard]] inline Detection describe_hypothesis_at_depth(double score, std::vector<Support> window,
                                                             const Scene& scene) {
     return detail::describe_votes(score, std::move(window), scene, true);
@@ -154,6 +172,11 @@ template <Kernel K, std::size_t Dimension>
         hypotheses[i] = describe(modes[i].score, std::move(window), scene);
     });
     detail::drop_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
+    detail::sort_by(hypotheses,
+                    [](const Detection& hypothesis) { return detail::falling(hypothesis.score); });
+    while (!hypotheses.empty() &&
+           hypotheses.back().score < options.min_relative_score * hypotheses.front().score)
+        hypotheses.pop_back();
     return hypotheses;
 }
 
