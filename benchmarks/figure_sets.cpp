@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: MIT
 
 // Sets of images that scripts/figures measures on, made from those of the data folder:
-//   figure_sets with-background SET.json FOLDER OUT.json     and the photographs of a folder, without objects
-//   figure_sets only-background SET.json FOLDER OUT.json     these alone, with the classes of the set
-//   figure_sets rescaled SET.json FOLDER                     each image at a random size, in FOLDER with
-//   set.json figure_sets without-object SET.json K TRAIN.json TEST.json   object K of each class (instance,
-//   or car7-…) apart from the others
+// - figure_sets with-background SET.json FOLDER OUT.json: and the photographs of a folder, without objects
+// - figure_sets only-background SET.json FOLDER OUT.json: these alone, with the classes of the set
+// - figure_sets rescaled SET.json FOLDER: each image at a random size, in FOLDER with set.json
+// - figure_sets without-object SET.json K TRAIN.json TEST.json: object K of each class (instance, or car7-…)
+//   apart from the others
+// - figure_sets random-part SET.json SEED OUT.json: four of five images, by chance
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -106,6 +107,15 @@ namespace fs = std::filesystem;
     return set;
 }
 
+[[nodiscard]] ism::Dataset random_part(ism::Dataset set, const std::string& seed) {
+    ism::Random random(std::stoull(seed));
+    std::vector<ism::DatasetImage>& images = set.images;
+    const std::size_t less = images.size() / 5;
+    for (std::size_t i = 0; i < less; ++i)
+        images.erase(images.begin() + std::ptrdiff_t(random.index(images.size())));
+    return set;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -117,6 +127,8 @@ int main(int argc, char** argv) try {
     if (what == "without-object") {
         ism::write_dataset(words[3], of_object(set, words[2], false));
         ism::write_dataset(words[4], of_object(std::move(set), words[2], true));
+    } else if (what == "random-part") {
+        ism::write_dataset(words[3], random_part(std::move(set), words[2]));
     } else if (what == "rescaled") {
         const fs::path folder = words[2];
         ism::write_dataset(folder / "set.json", rescaled(std::move(set), folder));
