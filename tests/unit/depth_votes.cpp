@@ -25,12 +25,14 @@ ism::Model one_word() {
     return model;
 }
 
-/// Votes of one feature through that word.
+/// What one feature votes through that word, by weight; 0 without a vote.
 template <class Space>
-std::size_t votes_of(const ism::Feature& feature, const ism::ShapeModel& shapes, double max_ratio = 1.5) {
+double weight_of(const ism::Feature& feature, const ism::ShapeModel& shapes, double size_deviation = 0.25) {
     const std::vector<ism::Feature> features{feature};
     const std::vector<ism::Match> matches{{0, 0, 1}};
-    return ism::cast_votes<Space>(features, matches, shapes, &camera, {.max_size_ratio = max_ratio}).size();
+    const auto votes =
+        ism::cast_votes<Space>(features, matches, shapes, &camera, {.size_deviation = size_deviation});
+    return votes.empty() ? 0 : votes[0].weight;
 }
 
 }  // namespace
@@ -50,17 +52,20 @@ TEST_CASE("With relative depth a feature votes for the depth of the object's cen
     CHECK(ism::Depth::vote(unknown) == Approx(0.95));
 }
 
-TEST_CASE("In a space with depth objects of another size in metres get no vote") {
+TEST_CASE("In a space with depth votes for objects of another size in metres weigh less") {
     ism::Model model = one_word();
     // Half the reference size at 1 m: 100 px · 1 m / 500 px = .2 m, as learnt; twice as far .4 m.
     const ism::Feature right{.x = 100, .y = 100, .scale = 4, .depth_m = 0.95f};
     const ism::Feature far{.x = 100, .y = 100, .scale = 4, .depth_m = 1.95f};
-    CHECK(votes_of<ism::Ji3sm1>(right, model.shapes, 1.01) == 1);
-    CHECK(votes_of<ism::Ji3sm3>(far, model.shapes) == 0);
-    CHECK(votes_of<ism::Ji3sm2>(far, model.shapes, 2.01) == 1);
-    CHECK(votes_of<ism::Jism>(far, model.shapes) == 1);
+    const ism::Feature near{.x = 100, .y = 100, .scale = 4, .depth_m = 0.45f};
+    CHECK(weight_of<ism::Ji3sm1>(right, model.shapes, 0.01) == Approx(1));
+    const double likelihood = std::exp(-std::log(2) * std::log(2) / 0.32);
+    CHECK(weight_of<ism::Ji3sm3>(far, model.shapes, 0.4) == Approx(likelihood));
+    CHECK(weight_of<ism::Ji3sm2>(near, model.shapes, 0.4) == Approx(likelihood));
+    CHECK(weight_of<ism::Ji3sm1>(far, model.shapes, 0.2) == 0);
+    CHECK(weight_of<ism::Jism>(far, model.shapes) == 1);
     model.shapes.objects[0].size_m = 0;  // not known
-    CHECK(votes_of<ism::Ji3sm3>(far, model.shapes) == 1);
+    CHECK(weight_of<ism::Ji3sm3>(far, model.shapes) == 1);
 }
 
 TEST_CASE("A hypothesis with depth has the size of its training objects at its distance") {

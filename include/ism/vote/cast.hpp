@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -32,8 +33,11 @@ struct VoteLimits {
     /// Training objects first … end − 1 cast no votes, as if they had not been seen: the other occurrences of
     /// a word have its whole weight.
     std::uint32_t without_first = 0, without_end = 0;
-    /// In a space with depth: by how much an object may be larger or smaller, in metres, than that of
-    /// training (with poses a feature than that of training).
+    /// In a space with depth: how much the logarithm of an object's size in metres, by its scale and depth,
+    /// deviates from that of training; votes weigh less by this likelihood.
+    double size_deviation = 0.25;
+    /// In a space with poses: by how much a feature may be larger or smaller, in metres, than that of
+    /// training.
     double max_size_ratio = 1.5;
 };
 
@@ -68,20 +72,23 @@ template <std::predicate<const Occurrence&> LeftOut>
     return rest > 0 ? all / rest : 0;
 }
 
-/// Whether an object placed so, at a depth, is about as large in metres as the training object; also where
-/// one of the sizes is not known.
-[[nodiscard]] inline bool is_plausible(const Placement& placement, double depth_m,
-                                       const TrainingObject& object, const Camera* camera, double max_ratio) {
-    if (camera == nullptr || !(object.size_m > 0)) return true;
+/// How well an object placed so, at a depth, has the size in metres of the training object, 0 … 1; 0 from
+/// three deviations on, 1 where one of the sizes is not known.
+[[nodiscard]] inline double size_likelihood(const Placement& placement, double depth_m,
+                                            const TrainingObject& object, const Camera* camera,
+                                            double deviation) {
+    if (camera == nullptr || !(object.size_m > 0)) return 1;
     const double ratio = placement.scale * reference_size_px * depth_m / camera->fx / object.size_m;
-    return ratio <= max_ratio && ratio >= 1 / max_ratio;
+    const double off = std::log(ratio) / deviation;
+    return std::abs(off) < 3 ? std::exp(-off * off / 2) : 0;
 }
 
 }  // namespace detail
 
 /// @brief Casts the votes of matched features: each through every occurrence of each of its words. Votes
-/// lighter than `min_weight` are dropped, and in a space that needs depth those of features without a reading
-/// or of objects of another size in metres, in one with poses those without a local frame.
+/// lighter than `min_weight` are dropped, and in a space that needs depth those of features without a
+/// reading, in one with poses those without a local frame. In a space with depth those for objects of another
+/// size in metres than in training weigh less.
 /// @param camera  of the image; null = not known
 /// @param frames  of the features; only for a space with poses
 /// @return the votes by label, then feature, word and occurrence
@@ -110,7 +117,7 @@ template <VoteSpaceType Space>
         const double gain = limits.without_end > 0 ? detail::weight_gain(word, left_out) : 1;
         for (std::size_t k = 0; k < word.size(); ++k) {
             const Occurrence& occurrence = word[k];
-            const float weight = match.weight * static_cast<float>(occurrence.weight * gain);
+            float weight = match.weight * static_cast<float>(occurrence.weight * gain);
             if (weight < limits.min_weight || (limits.without_end > 0 && left_out(occurrence))) continue;
             VoteSource source{feature, occurrence, shapes.objects[occurrence.object], camera,
                               placement(feature, occurrence)};
@@ -122,9 +129,10 @@ template <VoteSpaceType Space>
                 source.pose = *pose;
                 source.placement = placement(*pose, source.object, *camera);
             } else if constexpr (Space::needs_depth) {
-                if (!detail::is_plausible(source.placement, centre_depth_m(feature, occurrence),
-                                          source.object, camera, limits.max_size_ratio))
-                    continue;
+                weight *= static_cast<float>(
+                    detail::size_likelihood(source.placement, centre_depth_m(feature, occurrence),
+                                            source.object, camera, limits.size_deviation));
+                if (!(weight > 0)) continue;
             }
             const auto& [centre, scale, angle] = source.placement;
             if (scale < limits.min_scale || scale > limits.max_scale) continue;
