@@ -124,7 +124,12 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
             one.weights.push_back(number());
         model.templates.push_back(one);
     }
-    model.word_weight = 1.0 / 3;
+    model.cue_weights = {1.0 / 3, 1.0 / 7, 2};
+    for (int c = 0; c < 2; ++c) {
+        ism::ClassFigure figure;
+        for (std::size_t k = 0; k < ism::figure_numbers; ++k) figure.push_back(float(random.uniform()));
+        model.figures.push_back(figure);
+    }
     model.template_calibration.curves = {{2, -1}, {1.0 / 7, 0}};
     for (const std::uint32_t object : {0u, 2u}) {
         ism::MaskExemplar one{object, {}};
@@ -166,7 +171,8 @@ void check_equal(const ism::Model& a, const ism::Model& b) {
     CHECK(a.box_classifier.bias == b.box_classifier.bias);
     CHECK(a.calibration.curves == b.calibration.curves);
     CHECK(a.templates == b.templates);
-    CHECK(a.word_weight == b.word_weight);
+    CHECK(a.cue_weights == b.cue_weights);
+    CHECK(a.figures == b.figures);
     CHECK(a.template_calibration.curves == b.template_calibration.curves);
     CHECK(a.exemplars == b.exemplars);
     CHECK(a.training == b.training);
@@ -312,7 +318,9 @@ TEST_CASE("A model that could not be read again is not written") {
     refuses("category_ids: expected an array of 2", [](ism::Model& m) { m.shapes.category_ids.pop_back(); });
     refuses("calibration", [](ism::Model& m) { m.calibration.curves.pop_back(); });
     refuses("template_calibration", [](ism::Model& m) { m.template_calibration.curves.pop_back(); });
-    refuses("word_weight", [](ism::Model& m) { m.word_weight = -1; });
+    refuses("cue_weights", [](ism::Model& m) { m.cue_weights.colors = -1; });
+    refuses("class_figures: expected 0 or 2", [](ism::Model& m) { m.figures.pop_back(); });
+    refuses("class_figures: expected 0 ... 1", [](ism::Model& m) { m.figures[1][7] = 1.5f; });
     refuses("templates", [](ism::Model& m) { m.templates.pop_back(); });
     refuses("template_weights", [](ism::Model& m) { m.templates[1].weights.pop_back(); });
     refuses("template_grids", [](ism::Model& m) { m.templates[0].grid.rows = 0; });
@@ -422,7 +430,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {": class names: expected 1 or more", [](File& f) { f.metadata["class_names"] = "[]"; }},
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 10, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
+        {": format version: expected 11, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
         {": object_places: expected -1e+06 ... 1e+06",
          [&](File& f) { set(f, "object_places", 4, ism::no_depth); }},
         {": depth and size of an object: expected 0 or more",

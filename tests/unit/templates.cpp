@@ -73,7 +73,9 @@ TEST_CASE("templates judge and place what votes propose") {
         CHECK(best.cells.shares.empty());
         auto telling = recognition;
         telling.rescorer.explain = true;
-        const ism::Detection told = ism::detect(model, test.frame, telling, 1).objects.front();
+        TypedModel templates_alone = model;
+        templates_alone.cue_weights = {};
+        const ism::Detection told = ism::detect(templates_alone, test.frame, telling, 1).objects.front();
         CHECK(told.box == best.box);
         CHECK(told.cells.grid == model.templates[class_index].grid);
         double sum = 0;
@@ -128,23 +130,32 @@ TEST_CASE("of many classes those with most vote weight at a place are asked") {
     CHECK(classes_of(1, 0) == Classes{0});
 }
 
-TEST_CASE("words join templates at the weight that tells right from wrong best") {
-    // boxes whose odds of being right are exp(4 margin + w · 4 logit): w is found again
-    const auto learnt = [](double w) {
+TEST_CASE("cues join templates at the weights that tell right from wrong best") {
+    // boxes whose odds of being right are exp(4 · margin of all cues), of two classes that differ in how
+    // often they are: the weights are found again
+    const auto learnt = [](const ism::CueWeights& weights) {
         ism::Random random(1);
         std::vector<ism::detail::JudgedBox> judged;
         for (int i = 0; i < 20000; ++i) {
-            ism::detail::JudgedBox box{.margin = random.uniform(-2, 1), .logit = random.uniform(-4, 2)};
-            box.right = random.uniform() < 1 / (1 + std::exp(-4 * (box.margin + w * box.logit)));
+            ism::detail::JudgedBox box{.class_index = std::uint32_t(i % 2),
+                                       .cues = {.margin = random.uniform(-2, 1),
+                                                .word_logit = random.uniform(-4, 2),
+                                                .vote_weight = std::exp(random.uniform(-3, 3)),
+                                                .color_overlap = random.uniform()}};
+            const double margin = weights.margin(box.cues) + double(box.class_index);
+            box.right = random.uniform() < 1 / (1 + std::exp(-4 * margin));
             judged.push_back(box);
         }
-        return ism::detail::fit_word_weight(judged);
+        return ism::detail::fit_cue_weights(judged, 2);
     };
-    CHECK(learnt(0.1) == Approx(0.1).margin(0.026));
-    CHECK(learnt(0.5) == Approx(0.2));
-    CHECK(learnt(0) <= 0.025);
-    CHECK(learnt(-0.5) == 0);
-    CHECK(ism::detail::fit_word_weight({}) == 0);
+    const ism::CueWeights found = learnt({.words = 0.1, .votes = 0.05, .colors = 1});
+    CHECK(found.words == Approx(0.1).margin(0.026));
+    CHECK(found.votes == Approx(0.05).margin(0.026));
+    CHECK(found.colors == Approx(1).margin(0.26));
+    CHECK(learnt({.words = 0.5}).words == Approx(0.2));
+    CHECK(learnt({.votes = 0.5}).votes == Approx(0.1));
+    const ism::CueWeights none = learnt({.words = -0.5, .votes = -1, .colors = -3});
+    CHECK((none.words == 0 && none.votes == 0 && none.colors == 0));
 }
 
 TEST_CASE("the same templates for any number of threads") {

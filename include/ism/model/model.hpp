@@ -10,6 +10,7 @@
 #include "ism/feature/feature_settings.hpp"
 #include "ism/hog/box_template.hpp"
 #include "ism/model/box_classifier.hpp"
+#include "ism/model/box_cues.hpp"
 #include "ism/model/calibration.hpp"
 #include "ism/model/mask_exemplar.hpp"
 #include "ism/model/mask_judge.hpp"
@@ -43,8 +44,9 @@ struct Model {
     BoxClassifier box_classifier = {};         ///< may be empty
     Calibration calibration = {};              ///< of votes and box classifier; may be empty
     std::vector<BoxTemplate> templates = {};   ///< one a class; may be empty
-    double word_weight = 0;                    ///< margins of a template that a logit of the words is worth
-    Calibration template_calibration = {};     ///< of templates with words; may be empty
+    CueWeights cue_weights = {};               ///< of what judges boxes with the templates
+    std::vector<ClassFigure> figures = {};     ///< of each class; may be empty
+    Calibration template_calibration = {};     ///< of templates with the other cues; may be empty
     std::vector<MaskExemplar> exemplars = {};  ///< whose masks are lent; may be empty
     MaskJudge mask_judge = {};                 ///< of regions of RGB-D images; may be empty
     TrainingSummary training = {};

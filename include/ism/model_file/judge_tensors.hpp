@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,7 @@
 
 #include "ism/hog/box_template.hpp"
 #include "ism/model/box_classifier.hpp"
+#include "ism/model/box_cues.hpp"
 #include "ism/model/calibration.hpp"
 #include "ism/model/mask_exemplar.hpp"
 #include "ism/model_file/shape_tensors.hpp"
@@ -134,6 +136,42 @@ inline void templates_to_tensors(std::span<const BoxTemplate> templates, TensorF
     expect<FileError>(first == weights.size(), lazy_text(file.source, ": template_weights"), first,
                       weights.size());
     return templates;
+}
+
+inline void cue_weights_to_tensor(const CueWeights& weights, TensorFile& file) {
+    const auto& [words, votes, colors] = weights;
+    file.tensors["cue_weights"] = make_tensor<double>(std::array{words, votes, colors}, {3});
+}
+
+[[nodiscard]] inline CueWeights cue_weights_from_tensor(const TensorFile& file) {
+    const auto weights = values<double>(file, "cue_weights", {3});
+    for (const double weight : weights)
+        expect<FileError>(weight >= 0 && weight <= 1000, lazy_text(file.source, ": cue_weights"),
+                          "0 ... 1000", weight);
+    return {weights[0], weights[1], weights[2]};
+}
+
+inline void figures_to_tensor(std::span<const ClassFigure> figures, TensorFile& file) {
+    std::vector<float> numbers;
+    for (const ClassFigure& figure : figures) numbers.insert(numbers.end(), figure.begin(), figure.end());
+    file.tensors["class_figures"] = make_tensor<float>(numbers, {figures.size(), figure_numbers});
+}
+
+[[nodiscard]] inline std::vector<ClassFigure> figures_from_tensor(const TensorFile& file,
+                                                                  std::size_t classes) {
+    const auto numbers = values<float>(file, "class_figures", {any_length, figure_numbers});
+    const std::size_t count = numbers.size() / figure_numbers;
+    expect<FileError>(count == 0 || count == classes, lazy_text(file.source, ": class_figures"),
+                      lazy_text("0 or ", classes), count);
+    for (const float number : numbers)
+        expect<FileError>(number >= 0 && number <= 1, lazy_text(file.source, ": class_figures"), "0 ... 1",
+                          number);
+    std::vector<ClassFigure> figures;
+    for (std::size_t c = 0; c < count; ++c) {
+        const auto own = numbers.subspan(c * figure_numbers, figure_numbers);
+        figures.emplace_back(own.begin(), own.end());
+    }
+    return figures;
 }
 
 inline void exemplars_to_tensors(std::span<const MaskExemplar> exemplars, TensorFile& file) {

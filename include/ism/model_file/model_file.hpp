@@ -29,7 +29,7 @@ namespace ism {
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 10;
+inline constexpr std::int64_t model_format_version = 11;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {
@@ -103,8 +103,8 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
 [[nodiscard]] inline TensorFile model_to_tensors(const Model& model, const std::string& source) {
     TensorFile file{.source = source};
     // A member that is added to Model does not compile here until it is kept too.
-    const auto& [channels, shapes, box_classifier, calibration, templates, word_weight, template_calibration,
-                 exemplars, mask_judge, training, rgbd] = model;
+    const auto& [channels, shapes, box_classifier, calibration, templates, cue_weights, figures,
+                 template_calibration, exemplars, mask_judge, training, rgbd] = model;
     expect<FileError>(model.words() > 0 && shapes.occurrences.size() == model.words(),
                       lazy_text(source, ": words with occurrences"), model.words(),
                       shapes.occurrences.size());
@@ -131,7 +131,8 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     box_classifier_to_tensors(box_classifier, file);
     calibration_to_tensors(calibration, "calibration", file);
     templates_to_tensors(templates, file);
-    file.tensors["word_weight"] = make_tensor<double>(std::array{word_weight}, {1});
+    cue_weights_to_tensor(cue_weights, file);
+    figures_to_tensor(figures, file);
     calibration_to_tensors(template_calibration, "template_calibration", file);
     exemplars_to_tensors(exemplars, file);
     points_to_tensors(shapes.objects, file);
@@ -189,9 +190,8 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     model.box_classifier = box_classifier_from_tensors(file, model.words(), classes);
     model.calibration = calibration_from_tensors(file, "calibration", classes);
     model.templates = templates_from_tensors(file, classes);
-    model.word_weight = values<double>(file, "word_weight", {1})[0];
-    expect<FileError>(model.word_weight >= 0 && model.word_weight <= 1000,
-                      lazy_text(file.source, ": word_weight"), "0 ... 1000", model.word_weight);
+    model.cue_weights = cue_weights_from_tensor(file);
+    model.figures = figures_from_tensor(file, classes);
     model.template_calibration = calibration_from_tensors(file, "template_calibration", classes);
     model.exemplars = exemplars_from_tensors(file, model.shapes.objects.size());
     model.shapes.objects = with_points_from_tensors(std::move(model.shapes.objects), file);

@@ -9,28 +9,31 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ism/core/progress.hpp"
 #include "ism/core/thread_pool.hpp"
+#include "ism/detect/color_overlap.hpp"
 #include "ism/hog/hog_pyramid.hpp"
 #include "ism/hog/propose_boxes.hpp"
 #include "ism/hog/search_box.hpp"
 #include "ism/model/box_classifier.hpp"
+#include "ism/model/box_cues.hpp"
 #include "ism/model/model.hpp"
 #include "ism/train/fit_box_classifier.hpp"
 #include "ism/train/fit_box_templates.hpp"
 #include "ism/train/fit_calibration.hpp"
 #include "ism/train/training_boxes.hpp"
 
-/// What templates and words are worth together, from boxes on images that neither was fitted to.
+/// What templates and other cues are worth together, from boxes on images that neither was fitted to.
 namespace ism::detail {
 
-/// A box that was found on an image that its judges had not seen: what the template says of it, what the
-/// words, and whether it is right.
+/// A box that was found on an image that its judges had not seen: what speaks for it, and whether it is
+/// right.
 struct JudgedBox {
     std::uint32_t class_index = 0;
-    double margin = 0, logit = 0;
+    BoxCues cues = {};
     bool right = false;
 };
 
@@ -50,7 +53,8 @@ struct JudgedBox {
 /// What judges say of the boxes of an image, of those that overlap the best alone.
 [[nodiscard]] inline std::vector<JudgedBox> judged_boxes(const TemplateImage& image,
                                                          std::span<const TemplateScorer> scorers,
-                                                         const BoxClassifier& words) {
+                                                         const BoxClassifier& words,
+                                                         std::span<const ClassFigure> figures) {
     std::vector<JudgedBox> judged;
     ThreadPool pool(1);
     const HogPyramid pyramid(image.color, finest_level(image.proposals), pool);
@@ -62,9 +66,11 @@ struct JudgedBox {
                             [&](const SearchedBox& k) { return overlaps(k.box, box.box); }))
                 continue;
             kept.push_back(box);
-            judged.push_back({c, box.score,
-                              words.empty() ? 0 : words.logit(c, image.words.histogram(box.box)),
-                              best_iou(box.box, image.labels, c) >= 0.5});
+            BoxCues cues{.margin = box.score,
+                         .vote_weight = image.voted.weight(c, box.box),
+                         .color_overlap = color_overlap(image.color, box.box, figures[c])};
+            if (!words.empty()) cues.word_logit = words.logit(c, image.words.histogram(box.box));
+            judged.push_back({c, cues, best_iou(box.box, image.labels, c) >= 0.5});
         }
     }
     return judged;
@@ -76,15 +82,18 @@ struct JudgedBox {
                                                          unsigned threads, const Progress& progress) {
     const std::size_t classes = model.shapes.class_names.size();
     std::vector<std::size_t> seen(classes + 1, 0);
-    std::vector<TemplateImage> halves[2];
+    std::vector<const TemplateImage*> halves[2];
     for (const TemplateImage& image : images)
         halves[seen[image.labels.empty() ? classes : image.labels.front().class_index]++ % 2].push_back(
-            image);
+            &image);
     const BoxClassifierOptions word_options;
     const std::size_t of_image = std::max<std::size_t>(3, word_options.max_hypotheses / 2 / images.size());
     std::vector<JudgedBox> judged;
     for (int half = 0; half < 2; ++half) {
-        const std::vector<TemplateImage>&known = halves[1 - half], &unknown = halves[half];
+        const std::vector<const TemplateImage*>& unknown = halves[half];
+        std::vector<TemplateImage> known;
+        for (const TemplateImage* image : halves[1 - half])
+            known.push_back({image->color, image->labels, image->proposals, image->words});
         std::vector<bool> shown(classes, false);
         for (const TemplateImage& image : known)
             for (const ObjectLabel& label : image.labels) shown[label.class_index] = true;
@@ -96,39 +105,58 @@ struct JudgedBox {
                                        threads);
         const std::vector<TemplateScorer> scorers(templates.begin(), templates.end());
         std::vector<std::vector<JudgedBox>> found(unknown.size());
-        parallel_for(unknown.size(), threads,
-                     [&](std::size_t i) { found[i] = judged_boxes(unknown[i], scorers, words); });
+        parallel_for(unknown.size(), threads, [&](std::size_t i) {
+            found[i] = judged_boxes(*unknown[i], scorers, words, model.figures);
+        });
         for (const auto& part : found) judged.insert(judged.end(), part.begin(), part.end());
     }
     return judged;
 }
 
-/// Those of all classes, or of one, scored by templates and words at a weight.
-[[nodiscard]] inline std::vector<ScoredExample> scored(std::span<const JudgedBox> judged, double word_weight,
+/// Those of all classes, or of one, scored by all cues.
+[[nodiscard]] inline std::vector<ScoredExample> scored(std::span<const JudgedBox> judged,
+                                                       const CueWeights& weights,
                                                        std::optional<std::uint32_t> class_index = {}) {
     std::vector<ScoredExample> examples;
     for (const JudgedBox& box : judged)
         if (!class_index || *class_index == box.class_index)
-            examples.push_back({std::exp(box.margin + word_weight * box.logit), box.right});
+            examples.push_back({std::exp(weights.margin(box.cues)), box.right});
     return examples;
 }
 
-/// How many margins one logit of the words is worth: with what weight, in steps of .025 up to .2, their sum
-/// tells right from wrong best, by the likelihood of a logistic curve. No more than .2, since the codebook
-/// has seen both halves, which flatters words.
-[[nodiscard]] inline double fit_word_weight(std::span<const JudgedBox> judged) {
-    double best = 0, least_loss = std::numeric_limits<double>::infinity();
-    for (int step = 0; step <= 8; ++step) {
-        const double weight = 0.025 * step;
-        const std::vector<ScoredExample> examples = scored(judged, weight);
-        const Calibration::Curve curve = fit_curve(examples);
-        double loss = 0;
-        for (const ScoredExample& e : examples) {
-            const double odds = curve.slope * std::log(e.score) + curve.offset;
-            loss += std::log1p(std::exp(e.positive ? -odds : odds));
-        }
-        if (loss < least_loss) least_loss = loss, best = weight;
-    }
+/// What scores are worth by a curve of each class.
+[[nodiscard]] inline Calibration calibrated(std::span<const JudgedBox> judged, const CueWeights& weights,
+                                            std::size_t classes) {
+    std::vector<std::vector<ScoredExample>> of_class;
+    for (std::uint32_t c = 0; c < classes; ++c) of_class.push_back(scored(judged, weights, c));
+    return calibration_of(of_class, scored(judged, weights));
+}
+
+/// With what weights the cues tell right from wrong best together, by the likelihood of calibrated scores:
+/// each in its turn in eight steps up to the most that it may be worth. Words no more than .2, and votes no
+/// more than .1, since the codebook has seen both halves, which flatters them. Colours are expected to be
+/// worth about 1.5 ± .35: training images show little but the classes, and tell little of what they are worth
+/// elsewhere.
+[[nodiscard]] inline CueWeights fit_cue_weights(std::span<const JudgedBox> judged, std::size_t classes) {
+    constexpr std::pair<double CueWeights::*, double> most[] = {
+        {&CueWeights::words, 0.2}, {&CueWeights::votes, 0.1}, {&CueWeights::colors, 3}};
+    CueWeights best;
+    double least_loss = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < 3; ++round)
+        for (const auto& [weight, limit] : most)
+            for (int step = 0; step <= 8; ++step) {
+                CueWeights weights = best;
+                weights.*weight = limit * step / 8;
+                const Calibration calibration = calibrated(judged, weights, classes);
+                const double unexpected = (weights.colors - 1.5) / 0.35;
+                double loss = unexpected * unexpected / 2;
+                for (const JudgedBox& box : judged) {
+                    const Calibration::Curve& curve = calibration.curves[box.class_index];
+                    const double odds = curve.slope * weights.margin(box.cues) + curve.offset;
+                    loss += std::log1p(std::exp(box.right ? -odds : odds));
+                }
+                if (loss < least_loss) least_loss = loss, best = weights;
+            }
     return best;
 }
 

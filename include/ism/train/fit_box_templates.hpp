@@ -17,6 +17,7 @@
 #include "ism/core/progress.hpp"
 #include "ism/core/random.hpp"
 #include "ism/core/thread_pool.hpp"
+#include "ism/detect/voted_boxes.hpp"
 #include "ism/hog/box_template.hpp"
 #include "ism/hog/describe_cells.hpp"
 #include "ism/hog/hog_pyramid.hpp"
@@ -55,7 +56,8 @@ struct TemplateImage {
     ImageView<const Rgb> color;
     std::vector<ObjectLabel> labels;
     std::vector<ProposedBox> proposals;
-    WordMap words = {};  ///< for a judge that knows words too
+    WordMap words = {};     ///< for judges that know words too …
+    VotedBoxes voted = {};  ///< … and votes, without those of its own objects
 };
 
 namespace detail {

@@ -15,6 +15,7 @@
 #include "ism/train/cross_judge.hpp"
 #include "ism/train/fit_box_templates.hpp"
 #include "ism/train/fit_calibration.hpp"
+#include "ism/train/mean_figures.hpp"
 #include "ism/train/training_boxes.hpp"
 #include "ism/train/training_features.hpp"
 
@@ -42,9 +43,12 @@ namespace detail {
                      .labels = view.labels,
                      .proposals = {},
                      .words = WordMap(scene.features, scene.matches, model.words())};
-        for (const Detection& guess :
-             find_hypotheses_of_others(view, scene, proposal_options(), proposal_bandwidth<Jism>()))
+        const DetectOptions search = proposal_options();
+        const auto votes = votes_of_others(view, scene, search);
+        for (const Detection& guess : find_hypotheses<EpanechnikovKernel, Jism::dimension>(
+                 scene, votes, proposal_bandwidth<Jism>(), search))
             images[i].proposals.push_back({guess.class_index, guess.box});
+        images[i].voted = VotedBoxes(votes, scene.features, model.shapes);
         counter.step();
     });
     return images;
@@ -64,12 +68,10 @@ namespace detail {
     const std::size_t classes = model.shapes.class_names.size();
     TemplateOptions quick = options;
     quick.mining_rounds = std::min(quick.mining_rounds, 1);
+    model.figures = mean_figures(model.shapes);
     const auto judged = detail::cross_judged(images, model, quick, threads, progress);
-    model.word_weight = detail::fit_word_weight(judged);
-    std::vector<std::vector<ScoredExample>> of_class;
-    for (std::uint32_t c = 0; c < classes; ++c)
-        of_class.push_back(detail::scored(judged, model.word_weight, c));
-    model.template_calibration = calibration_of(of_class, detail::scored(judged, model.word_weight));
+    model.cue_weights = detail::fit_cue_weights(judged, classes);
+    model.template_calibration = detail::calibrated(judged, model.cue_weights, classes);
     model.templates = fit_box_templates(images, classes, options, threads, progress);
     return model;
 }

@@ -54,14 +54,21 @@ namespace detail {
     return scene;
 }
 
-/// What votes find in a training image without those of its own objects.
+/// The votes in a training image without those of its own objects.
+[[nodiscard]] inline std::vector<Vote<Jism::dimension>> votes_of_others(const TrainingView& view,
+                                                                        const Scene& scene,
+                                                                        const DetectOptions& search) {
+    VoteLimits limits = vote_limits(scene, search);
+    limits.without_first = view.first_object, limits.without_end = view.end_object;
+    return cast_votes<Jism>(scene, search.matching, limits);
+}
+
+/// What they find.
 [[nodiscard]] inline std::vector<Detection> find_hypotheses_of_others(
     const TrainingView& view, const Scene& scene, const DetectOptions& search,
     const Bandwidth<Jism::dimension>& bandwidth) {
-    VoteLimits limits = vote_limits(scene, search);
-    limits.without_first = view.first_object, limits.without_end = view.end_object;
-    const auto votes = cast_votes<Jism>(scene, search.matching, limits);
-    return find_hypotheses<EpanechnikovKernel, Jism::dimension>(scene, votes, bandwidth, search);
+    return find_hypotheses<EpanechnikovKernel, Jism::dimension>(scene, votes_of_others(view, scene, search),
+                                                                bandwidth, search);
 }
 
 [[nodiscard]] inline TrainingBox labelled_box(const ObjectLabel& label, const WordMap& words) {

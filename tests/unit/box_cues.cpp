@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#include "ism/model/box_cues.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "support/catch.hpp"
+
+#include "ism/detect/color_overlap.hpp"
+#include "ism/detect/voted_boxes.hpp"
+#include "ism/train/mean_figures.hpp"
+
+namespace {
+
+/// A picture of one colour with a box of another.
+ism::RgbImage box_picture(const ism::Box& box, ism::Rgb figure, ism::Rgb ground) {
+    ism::RgbImage picture(200, 160);
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x)
+            picture(x, y) =
+                x >= box.x && y >= box.y && x < box.x + box.width && y < box.y + box.height ? figure : ground;
+    return picture;
+}
+
+}  // namespace
+
+TEST_CASE("colours overlap where a box does not follow an object") {
+    const ism::Box box{60, 40, 64, 64};
+    const ism::ClassFigure whole(ism::figure_numbers, 1);
+    const ism::RgbImage picture = box_picture(box, {200, 30, 30}, {20, 90, 160});
+    CHECK(ism::color_overlap(picture, box, whole) == 0);
+    CHECK(ism::color_overlap(box_picture(box, {9, 9, 9}, {9, 9, 9}), box, whole) == Approx(1));
+    // a quarter of the box beside the object, so 3/4 of its figure and 1/5 of its ground are red
+    const ism::Box beside{box.x + 16, box.y, box.width, box.height};
+    CHECK(ism::color_overlap(picture, beside, whole) ==
+          Approx(std::sqrt(0.75 * 0.2) + std::sqrt(0.25 * 0.8)));
+    SECTION("the figure need not fill the box") {
+        ism::ClassFigure left(ism::figure_numbers, 0);
+        for (std::size_t i = 0; i < left.size(); ++i) left[i] = i % ism::figure_samples < 16;
+        CHECK(ism::color_overlap(picture, {box.x + 32, box.y, box.width, box.height}, left) <
+              ism::color_overlap(picture, {box.x + 32, box.y, box.width, box.height}, whole));
+    }
+    SECTION("where no ground is to be seen colours tell nothing") {
+        const ism::RgbImage crop(64, 64);
+        CHECK(ism::color_overlap(crop, {0, 0, 64, 64}, whole) == 1);
+        CHECK(ism::color_overlap(crop, {500, 500, 64, 64}, whole) == 1);
+    }
+}
+
+TEST_CASE("the figure of a class is the mean of its masks, to both sides") {
+    ism::ShapeModel shapes{.class_names = {"a", "b"}, .objects = {}};
+    ism::Mask left(8, 8), all(8, 8);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) left(x, y) = x < 4 ? 255 : 0, all(x, y) = 255;
+    for (const ism::Mask& mask : {left, all})
+        shapes.objects.push_back({.class_index = 0, .width = 100, .height = 50, .mask = mask});
+    const std::vector<ism::ClassFigure> figures = ism::mean_figures(shapes);
+    REQUIRE(figures.size() == 2);
+    REQUIRE(figures[0].size() == ism::figure_numbers);
+    const auto middle = std::size_t(16 * ism::figure_samples);
+    CHECK(figures[0][middle + 8] == Approx(0.75));  // ½ · (½ + 1)
+    CHECK(figures[0][middle + 23] == Approx(0.75));
+    CHECK(figures[1] == ism::ClassFigure(ism::figure_numbers, 0));
+    shapes.objects.push_back(
+        {.class_index = 1, .width = 100, .height = 50, .mask = all});  // a box without a mask
+    CHECK(ism::mean_figures(shapes)[1] == figures[1]);
+}
+
+TEST_CASE("votes weigh for the boxes that they stand for") {
+    ism::ShapeModel shapes{.class_names = {"a", "b"}, .objects = {}};
+    shapes.objects.push_back({.class_index = 0, .width = 40, .height = 20});
+    shapes.objects.push_back({.class_index = 1, .width = 40, .height = 20});
+    std::vector<ism::Occurrence> word(2);
+    word[1].class_index = 1, word[1].object = 1;
+
+    shapes.occurrences.push_back(word);
+    std::vector<ism::Feature> features(2);
+    for (ism::Feature& f : features) f.x = 100, f.y = 50, f.scale = 1;
+    features[1].x = 104;
+    std::vector<ism::Vote<3>> votes;
+    for (const std::uint32_t feature : {0u, 1u})
+        votes.push_back({.at = {}, .scale = 1, .weight = 2, .feature = feature, .occurrence = 0});
+    votes.push_back({.at = {}, .scale = 1, .weight = 5, .feature = 0, .occurrence = 1});
+    const ism::VotedBoxes voted(votes, features, shapes);
+    const ism::Box box = ism::box_around({100, 50}, 40, 20);
+    const double beside = 36.0 / 44.0;  // IoU of a box four pixels to the side
+    CHECK(voted.weight(0, box) == Approx(2 + 2 * beside));
+    CHECK(voted.weight(1, box) == Approx(5));
+    CHECK(voted.weight(1, {80, 40, 80, 40}) == 0);
+    CHECK(ism::VotedBoxes().weight(0, box) == 0);
+    std::vector<std::uint32_t> agreeing;
+    voted.each_agreeing(0, box, 0.9, [&](std::uint32_t vote, float, double) { agreeing.push_back(vote); });
+    CHECK(agreeing == std::vector<std::uint32_t>{0});
+}
+
+TEST_CASE("cues are worth margins of a template") {
+    const ism::CueWeights weights{.words = 0.1, .votes = 0.2, .colors = 1};
+    const ism::BoxCues cues{.margin = 0.5, .word_logit = -2, .vote_weight = 0.9, .color_overlap = 0.25};
+    CHECK(weights.margin(cues) == Approx(0.5 - 0.2 + 0 - 0.25));
+    CHECK(ism::CueWeights().margin(cues) == 0.5);
+}
