@@ -68,9 +68,14 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
 
     std::vector<Way> ways = {{"all parts", finder(model, recognition)}};
     const auto add = [&](const char* name, Find find) { ways.push_back({name, std::move(find)}); };
-    bench::ProgramModel changed = model;
-    changed.word_weight = 0;
-    add("templates without words", finder(changed, recognition));
+    for (const auto& [name, weight] :
+         {std::pair{"words do not judge", &ism::CueWeights::words},
+          std::pair{"votes do not judge", &ism::CueWeights::votes},
+          std::pair{"contrast of colours does not judge", &ism::CueWeights::colors}}) {
+        bench::ProgramModel without = model;
+        without.cue_weights.*weight = 0;
+        add(name, finder(std::move(without), recognition));
+    }
     add("no mining of negatives",
         finder(judged(words, features, {.mining_rounds = 0}, threads), recognition));
     add("no jittered copies", finder(judged(words, features, {.jittered_copies = 0}, threads), recognition));
