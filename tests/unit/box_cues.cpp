@@ -100,4 +100,10 @@ TEST_CASE("cues are worth margins of a template") {
     const ism::BoxCues cues{.margin = 0.5, .word_logit = -2, .vote_weight = 0.9, .color_overlap = 0.25};
     CHECK(weights.margin(cues) == Approx(0.5 - 0.2 + 0 - 0.25));
     CHECK(ism::CueWeights().margin(cues) == 0.5);
+    const ism::BoxReasons odds = weights.reasons(cues).in_odds(4, -1);
+    CHECK(odds.look == Approx(2));
+    CHECK(odds.words == Approx(-0.8));
+    CHECK(odds.votes == Approx(0).margin(1e-9));
+    CHECK(odds.colors == Approx(-1));
+    CHECK(odds.sum() == Approx(4 * weights.margin(cues) - 1));
 }

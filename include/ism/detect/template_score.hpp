@@ -88,8 +88,13 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
         BoxCues cues{.margin = margins[i], .vote_weight = voted.weight(c, detection.box)};
         if (with_words) cues.word_logit = model.box_classifier.logit(c, words.histogram(detection.box));
         if (with_colors) cues.color_overlap = color_overlap(color, detection.box, model.figures[c]);
-        detection.score = std::exp(weights.margin(cues));
+        const BoxReasons reasons = weights.reasons(cues);
+        detection.score = std::exp(reasons.sum());
         detection.probability = model.template_calibration.probability(c, detection.score);
+        if (!model.template_calibration.empty()) {
+            const Calibration::Curve& curve = model.template_calibration.curves[c];
+            detection.box_reasons = reasons.in_odds(curve.slope, curve.offset);
+        }
         std::vector<Support> support;
         voted.each_agreeing(
             c, detection.box, min_agreement, [&](std::uint32_t vote, float weight, double agreement) {

@@ -26,6 +26,20 @@ struct BoxCues {
     double color_overlap = 1;  ///< of figure and ground, 0 … 1, see color_overlap()
 };
 
+/// @brief What each cue adds to the margin of all, or, together with `any`, which is the same for all boxes
+/// of a class, to the logarithm of the odds that a box shows it.
+struct BoxReasons {
+    double look = 0;  ///< the template
+    double words = 0, votes = 0, colors = 0;
+    double any = 0;
+
+    [[nodiscard]] double sum() const { return look + words + votes + colors + any; }
+    /// @brief Margins in logarithms of odds, by the curve of a class (Calibration).
+    [[nodiscard]] BoxReasons in_odds(double slope, double offset) const {
+        return {slope * look, slope * words, slope * votes, slope * colors, offset};
+    }
+};
+
 /// @brief How many margins of a template each other cue is worth.
 struct CueWeights {
     double words = 0;   ///< a logit of the words
@@ -33,11 +47,15 @@ struct CueWeights {
     double colors = 0;  ///< colours of figure and ground that have nothing in common
     [[nodiscard]] bool operator==(const CueWeights&) const = default;
 
-    /// @brief The margin of all cues together.
-    [[nodiscard]] double margin(const BoxCues& cues) const {
-        return cues.margin + words * cues.word_logit + votes * std::log(0.1 + cues.vote_weight) -
-               colors * cues.color_overlap;
+    /// @brief What each cue adds to the margin of all.
+    [[nodiscard]] BoxReasons reasons(const BoxCues& cues) const {
+        return {.look = cues.margin,
+                .words = words * cues.word_logit,
+                .votes = votes * std::log(0.1 + cues.vote_weight),
+                .colors = -colors * cues.color_overlap};
     }
+    /// @brief The margin of all cues together.
+    [[nodiscard]] double margin(const BoxCues& cues) const { return reasons(cues).sum(); }
 };
 
 }  // namespace ism

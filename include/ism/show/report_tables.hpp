@@ -50,6 +50,14 @@ namespace ism {
     return table;
 }
 
+namespace detail {
+
+[[nodiscard]] inline std::string signed_text(double number) {
+    return join_text(number > 0 ? "+" : "", number_text(number, 2));
+}
+
+}  // namespace detail
+
 /// @brief What speaks for the class of a mask that was judged (MaskJudge), in logarithms of odds, and the
 /// training objects it looks like.
 [[nodiscard]] inline ReportTable reason_table(const MaskReasons& reasons,
@@ -61,14 +69,29 @@ namespace ism {
         return join_text("training object ", *object, ", ", objects[*object].image);
     };
     const auto add = [&](const char* what, double log_odds, std::string example) {
-        table.rows.push_back(
-            {what, join_text(log_odds > 0 ? "+" : "", number_text(log_odds, 2)), std::move(example)});
+        table.rows.push_back({what, detail::signed_text(log_odds), std::move(example)});
     };
     add("votes", reasons.votes, "");
     add("colour", reasons.color, like(reasons.color_object));
     add("shape", reasons.shape, like(reasons.shape_object));
     add("colour and shape together", reasons.look, "");
     add("outline", reasons.outline, "");
+    return table;
+}
+
+/// @brief What speaks for a box that a template judged with other cues (TemplateScore), in logarithms of
+/// odds.
+[[nodiscard]] inline ReportTable reason_table(const BoxReasons& reasons) {
+    ReportTable table{.caption = "why this class", .header = {"what", "log odds"}};
+    const auto add = [&](const char* what, double log_odds) {
+        table.rows.push_back({what, detail::signed_text(log_odds)});
+    };
+    add("look: gradients and colours of the template", reasons.look);
+    add("words in the box", reasons.words);
+    add("votes that agree with the box", reasons.votes);
+    add("colours shared with what is around", reasons.colors);
+    add("any box of the class", reasons.any);
+    add("together", reasons.sum());
     return table;
 }
 
