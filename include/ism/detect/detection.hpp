@@ -77,7 +77,7 @@ struct Detection {
     std::vector<Support> support;             ///< why it was found, strongest first
     CellShares cells;                         ///< what its template saw; empty unless TemplateScore::explain
     std::optional<MaskReasons> reasons = {};  ///< why its mask is of this class; of MaskJudgeScore
-    std::optional<BoxReasons> box_reasons = {};  ///< why its box is, in log odds; of TemplateScore
+    BoxReasons box_reasons = {};              ///< why its box is, in log odds; empty unless of TemplateScore
 };
 
 /// @brief How much each station of the way had to do, and how long it took.

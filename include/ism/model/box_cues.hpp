@@ -33,6 +33,7 @@ struct BoxReasons {
     double words = 0, votes = 0, colors = 0;
     double any = 0;
 
+    [[nodiscard]] bool empty() const { return look == 0 && any == 0; }
     [[nodiscard]] double sum() const { return look + words + votes + colors + any; }
     /// @brief Margins in logarithms of odds, by the curve of a class (Calibration).
     [[nodiscard]] BoxReasons in_odds(double slope, double offset) const {

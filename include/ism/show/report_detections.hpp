@@ -202,7 +202,7 @@ namespace detail {
             .title = join_text("Why ", detail::judged_text(detection, class_names, judged(order[k]))),
             .folded = true};
         why.parts.push_back(detail::explanation(picture, detections, detection, options.circle_scales));
-        if (detection.box_reasons) why.parts.push_back(reason_table(*detection.box_reasons));
+        if (!detection.box_reasons.empty()) why.parts.push_back(reason_table(detection.box_reasons));
         if (detection.reasons) why.parts.push_back(reason_table(*detection.reasons, options.objects));
         why.parts.push_back(fact_table(detection));
         why.parts.push_back(word_table(detection, options.reasons));
