@@ -66,7 +66,7 @@ private:
     using Picture = dlib::array2d<dlib::rgb_pixel>;
 
     [[nodiscard]] static Picture picture_of(const ism::Frame& frame) {
-        const ism::RgbImage color = ism::colors_of(frame);
+        const ism::RgbImage color = ism::FrameColors(frame).image();
         Picture picture(color.height(), color.width());
         for (int y = 0; y < color.height(); ++y)
             for (int x = 0; x < color.width(); ++x)

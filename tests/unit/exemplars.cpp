@@ -66,7 +66,7 @@ ism::TrainingFeatures features_of(const std::vector<ism::TrainingImage>& images,
                 ism::describe_object(object.label(), ism::object_mask(object, width, height), image.name));
         }
         view.end_object = std::uint32_t(all.objects.size());
-        if (pixels) view.pixels = ism::colors_of(image.frame);
+        if (pixels) view.pixels = ism::FrameColors(image.frame).image();
         all.views.push_back(std::move(view));
     }
     return all;

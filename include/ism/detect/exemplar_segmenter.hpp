@@ -65,8 +65,8 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
             among.push_back(e);
     if (among.empty() || !(box.area() >= 1)) return votes.segment(hypothesis, scene);
 
-    const RgbImage gray_as_color = scene.frame.color.empty() ? colors_of(scene.frame) : RgbImage();
-    const RgbImage& color = scene.frame.color.empty() ? gray_as_color : scene.frame.color;
+    const FrameColors colors(scene.frame);
+    const RgbImage& color = colors.image();
     const BoxRegion region(box, margin, color.width(), color.height());
     std::vector<double> sizes{1};
     if (exemplars.size_step > 0)

@@ -171,6 +171,7 @@ template <Kernel K, std::size_t Dimension>
         }
         hypotheses[i] = describe(modes[i].score, std::move(window), scene);
     });
+    // Described from votes of one depth, some have become weaker than their modes were.
     detail::drop_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
     detail::sort_by(hypotheses,
                     [](const Detection& hypothesis) { return detail::falling(hypothesis.score); });

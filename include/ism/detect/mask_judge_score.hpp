@@ -122,8 +122,8 @@ inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hyp
     expect(scene.surface != nullptr, "MaskJudgeScore: vote space", "a space with poses", "another");
     const std::size_t classes = scene.model.shapes.class_names.size();
     detail::sort_by(hypotheses, [](const Detection& d) { return detail::falling(d.score); });
-    const RgbImage gray_as_color = scene.frame.color.empty() ? colors_of(scene.frame) : RgbImage();
-    const RgbImage& color = scene.frame.color.empty() ? gray_as_color : scene.frame.color;
+    const FrameColors colors(scene.frame);
+    const RgbImage& color = colors.image();
     const std::vector<RegionMask> regions = mask_candidates(scene, hypotheses, candidates);
     std::vector<std::vector<Detection>> judged(regions.size());
     scene.pool.for_each(regions.size(), [&](std::size_t i, unsigned) {

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -58,8 +56,8 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     std::vector<ProposedBox> proposals;
     for (const Detection& hypothesis : hypotheses)
         if (proposals.size() < max_proposals) proposals.push_back({hypothesis.class_index, hypothesis.box});
-    const RgbImage gray_as_color = scene.frame.color.empty() ? colors_of(scene.frame) : RgbImage();
-    const RgbImage& color = scene.frame.color.empty() ? gray_as_color : scene.frame.color;
+    const FrameColors colors(scene.frame);
+    const RgbImage& color = colors.image();
     const HogPyramid pyramid(color, finest_level(proposals), scene.pool);
     const CueWeights& weights = model.cue_weights;
     const bool with_words = weights.words > 0 && !model.box_classifier.empty(),

@@ -181,7 +181,8 @@ private:
             TrainingView view = workers[worker]->view(image);
             parts[i] = detail::object_features(image, view, most);
             if (options.views) parts[i].views.push_back(std::move(view));
-            if (options.views && options.pixels) parts[i].views.back().pixels = colors_of(image.frame);
+            if (options.views && options.pixels)
+                parts[i].views.back().pixels = FrameColors(image.frame).image();
             if (options.views && options.depth)
                 parts[i].views.back().depth = detail::training_depth(std::as_const(image));
             if (options.views && options.mirror) {
