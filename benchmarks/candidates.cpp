@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "support/photographs.hpp"
 #include "support/program_model.hpp"
 #include "support/rows.hpp"
+#include "support/set_options.hpp"
 #include <CLI/CLI.hpp>
 
 #include "ism/core/thread_pool.hpp"
@@ -84,19 +84,15 @@ struct Counts {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    std::filesystem::path data = bench::data_folder();
-    std::vector<std::string> sets = {"sysu-shapes", "weizmann-horses", "msrc", "four-class"};
-    unsigned threads = 0;
+    bench::SetOptions options{.sets = {"sysu-shapes", "weizmann-horses", "msrc", "four-class"}};
     CLI::App app("How many objects the hypotheses of votes overlap, before and after templates judge them.");
-    app.add_option("--data", data, "folder of the data sets");
-    app.add_option("--sets", sets, "with train.json, and test.json or val.json")->delimiter(',');
-    app.add_option("--threads", threads, "0 = as many as the machine has");
+    options.add_to(app);
     CLI11_PARSE(app, argc, argv);
 
     std::vector<std::vector<std::string>> cells = {
         {"set", "objects", "hypotheses/image", "any class", "own class", "any of all", "own of all", "told"}};
-    for (const std::string& set : sets) {
-        const Counts counts = measured(data / set, threads);
+    for (const std::string& set : options.sets) {
+        const Counts counts = measured(options.data / set, options.threads);
         cells.push_back(
             {set, bench::number(counts.objects, 0), bench::number(counts.hypotheses / counts.images, 1)});
         for (const double hit : counts.hit) cells.back().push_back(bench::number(hit / counts.objects, 3));

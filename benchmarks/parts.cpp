@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "support/photographs.hpp"
 #include "support/program_model.hpp"
 #include "support/rows.hpp"
+#include "support/set_options.hpp"
 #include <CLI/CLI.hpp>
 
 #include "ism/core/thread_pool.hpp"
@@ -105,24 +105,20 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
 }  // namespace
 
 int main(int argc, char** argv) try {
-    std::filesystem::path data = bench::data_folder();
-    std::vector<std::string> sets = {"four-class", "sysu-shapes", "weizmann-horses", "msrc"};
-    unsigned threads = 0;
+    bench::SetOptions options{.sets = {"four-class", "sysu-shapes", "weizmann-horses", "msrc"}};
     CLI::App app("What each part of the way on colour images brings.");
-    app.add_option("--data", data, "folder of the data sets");
-    app.add_option("--sets", sets, "with train.json, and test.json or val.json")->delimiter(',');
-    app.add_option("--threads", threads, "0 = as many as the machine has");
+    options.add_to(app);
     CLI11_PARSE(app, argc, argv);
 
     std::vector<std::vector<std::string>> cells = {{"mean AP %, mean mask IoU %"}};
-    for (const std::string& set : sets) {
-        const ism::Dataset train = ism::read_dataset(data / set / "train.json"),
-                           test = bench::held_out(data / set, train.class_names);
+    for (const std::string& set : options.sets) {
+        const ism::Dataset train = ism::read_dataset(options.data / set / "train.json"),
+                           test = bench::held_out(options.data / set, train.class_names);
         cells[0].push_back(set), cells[0].push_back("");
-        const std::vector<Way> ways = ways_of(train, threads);
+        const std::vector<Way> ways = ways_of(train, options.threads);
         for (std::size_t w = 0; w < ways.size(); ++w) {
             std::vector<ism::Detections> found(test.images.size());
-            ism::parallel_for(test.images.size(), threads, [&](std::size_t i) {
+            ism::parallel_for(test.images.size(), options.threads, [&](std::size_t i) {
                 found[i] = ways[w].find(ism::read_frame(test.images[i]));
             });
             const auto mean = ism::evaluate(test, found, ism::IouRule{}).mean;

@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "support/dlib_detector.hpp"
-#include "support/photographs.hpp"
 #include "support/program_model.hpp"
 #include "support/rows.hpp"
+#include "support/set_options.hpp"
 #include <CLI/CLI.hpp>
 
 #include "ism/core/random.hpp"
@@ -132,34 +132,33 @@ struct Sum {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    fs::path data = bench::data_folder(), csv;
-    std::vector<std::string> sets = {"sysu-shapes", "weizmann-horses"};
+    bench::SetOptions options{.sets = {"sysu-shapes", "weizmann-horses"}};
+    fs::path csv;
     std::vector<std::size_t> counts = {5, 10, 20, 50};
     std::uint64_t draws = 5;
-    unsigned threads = 0;
     bench::DlibOptions dlib_options;
-    CLI::App app("Detection from few examples: templates, votes, and dlib's gradient histograms.");
-    app.add_option("--data", data, "folder of the data sets");
-    app.add_option("--sets", sets, "with train.json and val.json")->delimiter(',')->capture_default_str();
+    CLI::App app(
+        "Detection from few examples: templates, votes, and dlib's gradient histograms; "
+        "--threads learn, one searches.");
+    options.add_to(app);
     app.add_option("--counts", counts, "training images a class")->delimiter(',')->capture_default_str();
     app.add_option("--draws", draws, "of training images")->capture_default_str();
     app.add_option("--dlib-cost", dlib_options.cost, "C of dlib's detectors")->capture_default_str();
     app.add_option("--dlib-epsilon", dlib_options.epsilon, "where dlib's solver ends")->capture_default_str();
-    app.add_option("--threads", threads, "that learn; one thread searches");
     app.add_option("--csv", csv, "file of the figures of each draw");
     CLI11_PARSE(app, argc, argv);
-    dlib_options.threads = ism::thread_count(threads);
+    dlib_options.threads = ism::thread_count(options.threads);
 
     std::string lines = "set,images a class,draw,way,mean AP,training s,ms an image\n";
     std::vector<std::vector<std::string>> cells = {
         {"set", "images a class", "way", "mean AP %", "draws", "training s", "ms/image"}};
-    for (const std::string& set : sets) {
-        const ism::Dataset train = ism::read_dataset(data / set / "train.json"),
-                           val = bench::held_out(data / set, train.class_names);
+    for (const std::string& set : options.sets) {
+        const ism::Dataset train = ism::read_dataset(options.data / set / "train.json"),
+                           val = bench::held_out(options.data / set, train.class_names);
         for (const std::size_t count : counts) {
             std::vector<std::pair<std::string, Sum>> sums;
             for (std::uint64_t draw = 1; draw <= draws; ++draw) {
-                const auto ways = measured(drawn(train, count, draw), val, threads, dlib_options);
+                const auto ways = measured(drawn(train, count, draw), val, options.threads, dlib_options);
                 sums.resize(ways.size());
                 for (std::size_t w = 0; w < ways.size(); ++w) {
                     const double ap = mean_ap(val, ways[w].found),
