@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -31,7 +32,7 @@ public:
     }
 
     /// out = Σ weights[k · step] · row k, some columns after others, so that their sums stay in registers.
-    template <class T>
+    template <std::floating_point T>
     void weigh(const T* weights, std::size_t step, std::span<double> out) const {
         for (std::size_t first = 0; first < columns_; first += lanes) {
             std::array<double, lanes> sums{};

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <mutex>
 #include <string_view>
-#include <utility>
 
 #include "ism/core/function.hpp"
 

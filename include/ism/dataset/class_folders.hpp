@@ -6,11 +6,11 @@
 /// for what a program needs.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "ism/dataset/image_files.hpp"
 #include "ism/dataset/mask_files.hpp"

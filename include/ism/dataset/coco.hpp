@@ -11,7 +11,6 @@
 #include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "ism/core/box_check.hpp"
 #include "ism/dataset/coco_fields.hpp"

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
-#include <utility>
+#include <variant>
+#include <vector>
 
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/coco_fields.hpp"

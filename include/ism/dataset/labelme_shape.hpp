@@ -5,9 +5,9 @@
 /// @brief The shapes of labelme's files. By stb_image: see ism/io/images.hpp for what a program needs.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -27,7 +27,7 @@ namespace ism::detail {
     const double radius = std::hypot(rim.x - middle.x, rim.y - middle.y);
     Polygon outline;
     for (int i = 0; i < corners; ++i) {
-        const double angle = 2 * 3.14159265358979323846 * i / corners;
+        const double angle = 2 * std::numbers::pi * i / corners;
         outline.push_back({middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle)});
     }
     return outline;

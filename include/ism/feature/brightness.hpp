@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 
 #include "ism/core/image.hpp"
 #include "ism/feature/workspace.hpp"

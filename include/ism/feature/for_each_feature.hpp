@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "ism/core/callable.hpp"
 #include "ism/core/order.hpp"

@@ -6,7 +6,6 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "ism/feature/detector.hpp"

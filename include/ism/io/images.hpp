@@ -6,11 +6,13 @@
 /// including "ism/io/stb_implementation.hpp" in one of its .cpp files.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
-#include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 

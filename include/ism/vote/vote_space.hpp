@@ -6,9 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
-#include <utility>
 
 #include "ism/vote/axes.hpp"
 
