@@ -12,7 +12,7 @@ set(budget
     "detect/detect.hpp          | 100 | "
     "train/train_options.hpp    |   6 | "
     "train/training_image.hpp   |  10 | "
-    "train/train.hpp            | 130 | "
+    "train/train.hpp            | 131 | "
     "evaluate/evaluate.hpp      |  10 | "
     "core/frame.hpp             |   8 | "
     "feature/hessian_laplace.hpp|  27 | "
@@ -20,7 +20,7 @@ set(budget
     "dataset/dataset.hpp        |  13 | "
     "dataset/coco.hpp           |  19 | nlohmann/"
     "io/images.hpp              |  12 | stb/"
-    "model_file/model_file.hpp  |  62 | nlohmann/"
+    "model_file/model_file.hpp  |  63 | nlohmann/"
 )
 set(errors "")
 

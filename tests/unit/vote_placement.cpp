@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "support/catch.hpp"
 
 #include "ism/core/random.hpp"
+#include "ism/model/figure_reach.hpp"
 #include "ism/vote/placement.hpp"
 
 TEST_CASE("a placement follows from feature and occurrence by hand") {
@@ -49,13 +51,29 @@ TEST_CASE("placement and its inverses are inverses") {
     }
 }
 
-TEST_CASE("the box around a turned box holds its corners and no more") {
-    const ism::Placement upright{{50, 40}, 0.5, 0};
-    CHECK(ism::placed_box(upright, 100, 60) == ism::box_around({50, 40}, 50, 30));
-    const ism::Placement quarter{{50, 40}, 0.5, std::numbers::pi / 2};
-    const ism::Box box = ism::placed_box(quarter, 100, 60);
-    CHECK(box.width == Approx(30));
-    CHECK(box.height == Approx(50));
-    const ism::Placement eighth{{0, 0}, 1, std::numbers::pi / 4};
-    CHECK(ism::placed_box(eighth, 10, 10).width == Approx(10 * std::sqrt(2.0)));
+TEST_CASE("the box around a turned object holds its figure and hardly more") {
+    // An L of 100 × 60 px: its left column and its bottom row.
+    ism::TrainingObject object{.width = 100, .height = 60, .mask = ism::Mask(50, 30)};
+    for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 50; ++x) object.mask(x, y) = x == 0 || y == 29 ? 255 : 100;
+    object.reach = ism::figure_reach(object.mask, object.width, object.height);
+    CHECK(object.reach[0] == Approx(50));
+    CHECK(object.reach[ism::reach_directions / 4] == Approx(30));
+    CHECK(ism::placed_box({{50, 40}, 0.5, 0}, object) == ism::box_around({50, 40}, 50, 30));
+    for (int k = -40; k <= 40; ++k) {
+        const ism::Placement placed{{200, 150}, 0.7, 0.2 * k};
+        double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
+        for (const ism::Point2 corner :
+             {ism::Point2{-50, -30}, {-48, -30}, {-50, 30}, {50, 30}, {50, 28}, {-48, 28}}) {
+            const ism::Point2 at = ism::to_image(placed, corner);
+            left = std::min(left, at.x), right = std::max(right, at.x);
+            top = std::min(top, at.y), bottom = std::max(bottom, at.y);
+        }
+        const ism::Box box = ism::placed_box(placed, object);
+        CAPTURE(placed.angle);
+        CHECK(box.x == Approx(left).margin(2));
+        CHECK(box.y == Approx(top).margin(2));
+        CHECK(box.x + box.width == Approx(right).margin(2));
+        CHECK(box.y + box.height == Approx(bottom).margin(2));
+    }
 }

@@ -86,26 +86,27 @@ inline double keep_at_depth(std::vector<Support>& window, const Scene& scene, do
     }
     result.depth_m = weighted_median(std::move(depths));
     if (by_depth) result.score *= keep_at_depth(window, scene, result.depth_m);
-    double total = 0, x = 0, y = 0, scale = 0, width = 0, height = 0, cosine = 0, sine = 0;
+    double total = 0, x = 0, y = 0, scale = 0, cosine = 0, sine = 0;
+    Box around{0, 0, 0, 0};
     for (const Support& s : window) {
         const Occurrence& o = shapes.occurrence(s.occurrence);
         const TrainingObject& object = shapes.objects[o.object];
         const Placement placed =
             placed_by(scene.features[s.feature], o, object, camera, by_depth ? result.depth_m : no_depth);
-        const Box box = placed_box(placed, object.width, object.height);
+        const Box box = placed_box(placed, object);
         total += s.weight;
         x += s.weight * placed.centre.x;
         y += s.weight * placed.centre.y;
         scale += s.weight * placed.scale;
         cosine += s.weight * std::cos(placed.angle);
         sine += s.weight * std::sin(placed.angle);
-        width += s.weight * box.width;
-        height += s.weight * box.height;
+        around.x += s.weight * box.x, around.y += s.weight * box.y;
+        around.width += s.weight * box.width, around.height += s.weight * box.height;
     }
     result.centre = {x / total, y / total};
     result.scale = scale / total;
     result.angle = std::atan2(sine, cosine);
-    result.box = box_around(result.centre, width / total, height / total);
+    result.box = {around.x / total, around.y / total, around.width / total, around.height / total};
     if (camera != nullptr && is_depth(result.depth_m))
         result.position_m = back_project(*camera, result.centre, result.depth_m);
     sort_by(window, [](const Support& s) { return falling(s.weight); });

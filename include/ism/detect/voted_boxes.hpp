@@ -30,10 +30,10 @@ public:
         for (std::uint32_t i = 0; i < votes.size(); ++i) {
             const Occurrence& o = shapes.occurrence(votes[i].occurrence);
             const TrainingObject& object = shapes.objects[o.object];
-            const Placement placed = placement(features[votes[i].feature], o);
-            const Box box = placed_box(placed, object.width, object.height);
-            of_class_[o.class_index].push_back({float(placed.centre.x), float(placed.centre.y),
-                                                float(box.width), float(box.height), votes[i].weight, i});
+            const Box box = placed_box(placement(features[votes[i].feature], o), object);
+            const Point2 centre = box.centre();
+            of_class_[o.class_index].push_back(
+                {float(centre.x), float(centre.y), float(box.width), float(box.height), votes[i].weight, i});
         }
     }
 

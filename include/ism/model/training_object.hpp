@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,6 +17,9 @@ namespace ism {
 /// @brief Pixels of the reference size that one cell of a stored object mask covers, along each side.
 inline constexpr double mask_cell_px = 2;
 
+/// @brief In so many directions it is known how far a training object reaches, evenly from x over y around.
+inline constexpr std::size_t reach_directions = 64;
+
 /// @brief A training object at the reference size. The mask patch of an occurrence is the part of its
 /// object's mask around the occurrence.
 struct TrainingObject {
@@ -23,7 +28,8 @@ struct TrainingObject {
     float size_px = 0;            ///< root of its box's area in the training image
     Mask mask = {};               ///< the box in cells of mask_cell_px: share of figure, 0 … 255
     std::string image = {};       ///< name of the training image, to tell why something was found
-    float size_m = 0;             ///< root of its box's area as a length at centre_m; 0 = not known
+    std::array<float, reach_directions> reach = {};  ///< of its figure from the centre: figure_reach()
+    float size_m = 0;     ///< root of its box's area as a length at centre_m; 0 = not known
     Vec3f centre_m = {};  ///< in the camera frame of its image, as its label tells it, else the box's centre
                           ///< at the mask's median depth; (0, 0, 0) = not known
     std::vector<Vec3f> points_m = {};  ///< of its surface, as far as it was seen, from its centre_m

@@ -14,6 +14,7 @@
 
 #include "ism/io/json.hpp"
 #include "ism/io/limits.hpp"
+#include "ism/model/figure_reach.hpp"
 #include "ism/model/shape_model.hpp"
 #include "ism/model_file/tensor.hpp"
 
@@ -101,8 +102,8 @@ inline void objects_to_tensors(std::span<const TrainingObject> objects, TensorFi
     Json images = Json::array();
     for (const TrainingObject& o : objects) {
         // A member that is added to TrainingObject does not compile here until it is kept too.
-        const auto& [class_index, width, height, size_px, mask, image, size_m, centre_m, points_m] = o;
-        // the last three: points_to_tensors()
+        const auto& [class_index, width, height, size_px, mask, image, reach, size_m, centre_m, points_m] = o;
+        // reach is the mask's; the last three: points_to_tensors()
         sizes.insert(sizes.end(), {width, height, size_px});
         classes.push_back(class_index);
         sides.insert(sides.end(), {std::uint32_t(mask.width()), std::uint32_t(mask.height())});
@@ -140,6 +141,7 @@ inline void objects_to_tensors(std::span<const TrainingObject> objects, TensorFi
         for (const float side : {object.width, object.height, object.size_px})
             expect<FileError>(side >= 1e-3f && side <= 1e6f, lazy_text(place, ": size"), "0.001 ... 1e6 px",
                               side);
+        object.reach = figure_reach(object.mask, object.width, object.height);
         objects.push_back(std::move(object));
     }
     expect<FileError>(runs.empty(), lazy_text(file.source, ": mask runs"), "as many as the masks need",

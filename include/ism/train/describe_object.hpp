@@ -16,6 +16,7 @@
 #include "ism/core/order.hpp"
 #include "ism/core/vec3.hpp"
 #include "ism/feature/feature.hpp"
+#include "ism/model/figure_reach.hpp"
 #include "ism/model/occurrence.hpp"
 #include "ism/model/training_object.hpp"
 #include "ism/train/training_image.hpp"
@@ -67,6 +68,7 @@ namespace ism {
             }
             result.mask(column, row) = static_cast<std::uint8_t>(255 * figure / (samples * samples));
         }
+    result.reach = figure_reach(result.mask, result.width, result.height);
     return result;
 }
 

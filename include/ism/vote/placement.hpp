@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 
 #include "ism/core/geometry.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/model/occurrence.hpp"
+#include "ism/model/training_object.hpp"
 
 /// "A feature seen there says that the object lies here": the similarity transform between an object at the
 /// reference size, with its centre at (0, 0), and an object in an image. Everything that needs it has it from
@@ -71,12 +74,22 @@ namespace detail {
     return occurrence;
 }
 
-/// @brief The upright box around a box of the reference size, centred on the object, that is placed so.
-[[nodiscard]] inline Box placed_box(const Placement& placement, double width, double height) {
-    const double cosine = placement.angle == 0 ? 1 : std::abs(std::cos(placement.angle));
-    const double sine = placement.angle == 0 ? 0 : std::abs(std::sin(placement.angle));
-    return box_around(placement.centre, placement.scale * (cosine * width + sine * height),
-                      placement.scale * (sine * width + cosine * height));
+/// @brief The upright box around a training object that is placed so: its own, or where it is turned the box
+/// around its turned figure.
+[[nodiscard]] inline Box placed_box(const Placement& placement, const TrainingObject& object) {
+    if (placement.angle == 0)
+        return box_around(placement.centre, placement.scale * object.width, placement.scale * object.height);
+    const auto reach = [&](double direction) {
+        double turns = (direction - placement.angle) / (2 * std::numbers::pi);
+        turns -= std::floor(turns);
+        const double step = turns * reach_directions, share = step - std::floor(step);
+        const std::size_t before = static_cast<std::size_t>(step) % reach_directions;
+        return placement.scale *
+               ((1 - share) * object.reach[before] + share * object.reach[(before + 1) % reach_directions]);
+    };
+    constexpr double quarter = std::numbers::pi / 2;
+    const double right = reach(0), down = reach(quarter), left = reach(2 * quarter), up = reach(3 * quarter);
+    return {placement.centre.x - left, placement.centre.y - up, left + right, up + down};
 }
 
 }  // namespace ism
