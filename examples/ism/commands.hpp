@@ -27,6 +27,7 @@ inline constexpr std::array<std::string_view, 2> descriptor_names = {"sift", "ro
 // What is taken where nothing is said; all else comes from the library.
 inline constexpr std::string_view default_detector = "hessian-laplace";
 inline constexpr std::string_view default_descriptor = "root-sift";
+inline constexpr std::string_view default_orientation = "auto";
 inline constexpr std::string_view default_space = auto_space;
 inline constexpr std::string_view default_rescorer = "auto";
 inline constexpr std::string_view default_verifier = "auto";
@@ -36,6 +37,7 @@ struct TrainCommand {
     std::filesystem::path data, model;
     std::vector<std::string> classes = {};  ///< none = all of the data set
     std::string detector{default_detector}, descriptor{default_descriptor};
+    std::string orientation{default_orientation};
     ism::TrainOptions options = {};
     bool skip_bad = false;
     std::filesystem::path add_to = {};     ///< model that learns more; empty = a new one

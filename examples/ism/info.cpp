@@ -54,6 +54,7 @@ void run_info(const InfoCommand& command) {
         const ism::FeatureSettings& settings = channel.features;
         std::printf("detector        %s\n", settings.detector.c_str());
         std::printf("descriptor      %s, %zu numbers\n", settings.descriptor.c_str(), settings.dimension);
+        std::printf("orientation     %s\n", settings.options.oriented ? "free" : "upright");
         std::printf("upsampling      %g\n", settings.options.upsampling);
         std::printf("match within    %g (squared distance)\n", channel.codebook.max_sq_distance());
         std::printf("parameters      %s\n",

@@ -13,6 +13,7 @@
 #include "ism/train/learn_metric.hpp"
 #include "ism/train/learn_templates.hpp"
 #include "ism/train/metric_extractor.hpp"
+#include "ism/train/orientation.hpp"
 
 namespace program {
 
@@ -22,6 +23,11 @@ ism::TrainingFeatures extract_training_features(std::span<const std::string> cla
                                                 const ism::TrainOptions& options) {
     return ism::extract_training_features(class_names, set, extractors, options.features, options.threads,
                                           options.progress);
+}
+
+ism::SharedFeatures shared_features(std::span<const std::string> class_names, const ism::TrainingSet& set,
+                                    const std::vector<ism::AnyExtractor>& extractors, unsigned threads) {
+    return ism::shared_features(class_names, set, extractors, threads);
 }
 
 ism::Model learn(const ism::TrainingFeatures& features, const ism::TrainOptions& options) {

@@ -11,6 +11,10 @@
 #include "ism/train/training_features.hpp"
 #include "ism/train/training_set.hpp"
 
+namespace ism {
+struct SharedFeatures;
+}
+
 namespace program {
 
 // What the library computes under these names (extract_training_features(), learn(), learn_templates() and
@@ -18,6 +22,10 @@ namespace program {
 [[nodiscard]] ism::TrainingFeatures extract_training_features(
     std::span<const std::string> class_names, const ism::TrainingSet& set,
     const std::vector<ism::AnyExtractor>& extractors, const ism::TrainOptions& options);
+[[nodiscard]] ism::SharedFeatures shared_features(std::span<const std::string> class_names,
+                                                  const ism::TrainingSet& set,
+                                                  const std::vector<ism::AnyExtractor>& extractors,
+                                                  unsigned threads);
 [[nodiscard]] ism::Model learn(const ism::TrainingFeatures& features, const ism::TrainOptions& options);
 [[nodiscard]] ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& features,
                                          const ism::TrainOptions& options);

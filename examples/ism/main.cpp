@@ -62,6 +62,12 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
     only(app.add_option("--descriptor", command.descriptor, "describes features"),
          texts(program::descriptor_names))
         ->capture_default_str();
+    only(app.add_option("--orientation", command.orientation,
+                        "upright: objects have one side up; free: they are found however they are turned in "
+                        "the image, where training objects have one side up by votes and words alone; auto: "
+                        "as training objects lie"),
+         {"auto", "upright", "free"})
+        ->capture_default_str();
     only(app.add_option_function<std::string>(
              "--codebook",
              [&command](const std::string& kind) {
@@ -100,7 +106,7 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
         app.add_option("--add-to", command.add_to,
                        "model to teach more classes, or more examples of its classes; it was "
                        "trained with --growable, and its features and similarity stay");
-    for (const char* fixed : {"--detector", "--descriptor", "--codebook", "--similarity",
+    for (const char* fixed : {"--detector", "--descriptor", "--orientation", "--codebook", "--similarity",
                               "--min-information-gain", "--max-words", "--best-words"})
         add_to->excludes(app.get_option(fixed));
     CLI::Option* growable =

@@ -13,6 +13,7 @@
 
 #include "ism/dataset/read_images.hpp"
 #include "ism/model_file/model_file.hpp"
+#include "ism/train/orientation.hpp"
 #include "ism/train/select_words.hpp"
 #include "ism/train/vote_agreement.hpp"
 
@@ -98,8 +99,6 @@ void run_train(const TrainCommand& command) {
     ism::check(options);
     std::optional<Known> known;
     if (!command.add_to.empty()) known = lessons_of(command.add_to, options);
-    const bool templates = command.templates && (!known || known->templates);
-    options.features.pixels = templates;
     ism::Dataset dataset = read_data(command.data, ism::DatasetPart::train, command.skip_bad);
     ism::expect(!dataset.class_names.empty(), ism::file_text(command.data), "labels to learn from",
                 "images without (labels are folders named as classes, or files of COCO, VOC, YOLO, labelme)");
@@ -120,8 +119,22 @@ void run_train(const TrainCommand& command) {
     options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
         progress.tell(stage, done, total);
     };
-    const auto extractors =
+    auto extractors =
         known ? known->extractors : std::vector{make_extractor(command.detector, command.descriptor)};
+    bool templates = command.templates && (!known || known->templates);
+    std::string orientation;
+    if (!known && command.orientation != "upright") {
+        const ism::SharedFeatures shared =
+            program::shared_features(dataset.class_names, named_images(dataset), extractors, options.threads);
+        const bool free = command.orientation == "free" || !shared.one_side_up();
+        extractors.front().options().oriented = free;
+        orientation =
+            ism::join_text(" (", std::lround(100 * shared.upright_share()), " % of ", shared.count,
+                           " features that training objects share have one side up; 17 % by chance)");
+        // Templates judge as training objects lie: learnt from upright ones they would refuse turned ones.
+        if (free && shared.one_side_up()) templates = false;
+    }
+    options.features.pixels = templates;
     ism::TrainingFeatures features =
         extract_training_features(dataset.class_names, named_images(dataset), extractors, options);
     if (known) features = ism::append(std::move(known->features), std::move(features));
@@ -148,6 +161,8 @@ void run_train(const TrainCommand& command) {
     std::printf("\nwords        %zu\n", model.words());
     std::printf("occurrences  %zu\n", model.shapes.occurrences.values().size());
     std::printf("upsampling   %.3g\n", settings.options.upsampling);
+    std::printf("orientation  %s%s\n", settings.options.oriented ? "free" : "upright", orientation.c_str());
+    std::printf("templates    %s\n", model.templates.empty() ? "no" : "yes");
     if (!depth.empty()) std::printf("depth        %s\n", depth.c_str());
     std::printf("seconds      %.1f\n", watch.seconds());
     std::printf("\nLearnt %s. Next:\n  %s detect --model %s photo.jpg\n", lessons_text(model.shapes).c_str(),

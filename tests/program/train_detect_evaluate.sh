@@ -15,7 +15,8 @@ cmp found-1 found-3 || fail "other detections with 3 threads"
 diff -r overlay-1 overlay-3 || fail "other overlays with 3 threads"
 # (the report names the model, so only its size is compared)
 (($(wc -c <report-1.html) == $(wc -c <report-3.html))) || fail "another report with 3 threads"
-for line in "images       24" "objects      24" "words        " "occurrences  " "upsampling   " "seconds      "; do
+for line in "images       24" "objects      24" "words        " "occurrences  " "upsampling   " "orientation  upright (" \
+    "templates    yes" "seconds      "; do
     says "$line" train.txt
 done
 for line in "images      2" "detections  "; do says "$line" detect.txt; done
@@ -77,6 +78,17 @@ says "objects      6" cars.txt
     --min-cluster-size 3 --min-information-gain 1e-6 --seed 4 >own.txt
 says "classes      robot, duck" own.txt
 "$ism" detect --model own --data toys/test.json -o found-own >/dev/null
+
+# Objects that are turned in the image, learnt from upright ones: by votes and words, which turn.
+"$ism" train --data toys/train.json -o free --orientation free >free.txt
+says "orientation  free (" free.txt
+says "templates    no" free.txt
+"$ism" info free >info.txt
+says "orientation     free" info.txt
+"$ism" detect --model free --data toys/test.json -o found-free >/dev/null
+says '"bbox"' found-free
+"$ism" train --data toys/train.json -o told --orientation upright --no-templates >told.txt
+grep -qx "orientation  upright" told.txt || fail "--orientation upright: $(cat told.txt)"
 
 # One image without a data set: number 1, classes numbered as in the training file.
 "$ism" detect --model model-1 toys/test/test-0000.png --depth toys/test/test-0000-depth.png --depth-scale 0.001 \
