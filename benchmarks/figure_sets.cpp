@@ -5,16 +5,19 @@
 // - figure_sets with-background SET.json FOLDER OUT.json: and the photographs of a folder, without objects
 // - figure_sets only-background SET.json FOLDER OUT.json: these alone, with the classes of the set
 // - figure_sets rescaled SET.json FOLDER: each image at a random size, in FOLDER with set.json
+// - figure_sets turned SET.json FOLDER: each image turned at random about its middle, in FOLDER with set.json
 // - figure_sets without-object SET.json K TRAIN.json TEST.json: object K of each class (instance, or car7-…)
 //   apart from the others
 // - figure_sets random-part SET.json SEED OUT.json: four of five images, by chance
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -24,6 +27,7 @@
 #include "ism/core/resize_area.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/coco_write.hpp"
+#include "ism/dataset/rle.hpp"
 #include "ism/io/images.hpp"
 #include "ism/io/png.hpp"
 
@@ -78,6 +82,64 @@ namespace fs = std::filesystem;
     return set;
 }
 
+/// Each image turned about its middle by a random angle, on a square larger than it by a quarter; what lies
+/// beyond its edges is as they are. Labels are those of the turned masks.
+[[nodiscard]] ism::Dataset turned(ism::Dataset set, const fs::path& folder) {
+    fs::create_directories(folder);
+    ism::Random random(1);
+    for (ism::DatasetImage& image : set.images) {
+        const ism::RgbImage before = ism::read_rgb(image.file);
+        const int side = std::max(before.width(), before.height()) * 5 / 4;
+        const double angle = random.uniform(0, 2 * std::numbers::pi), cosine = std::cos(angle),
+                     sine = std::sin(angle);
+        const auto in_image = [&](int x, int y) {  // where it comes from
+            const double u = x - 0.5 * (side - 1), v = y - 0.5 * (side - 1);
+            return ism::Point2{cosine * u + sine * v + 0.5 * (before.width() - 1),
+                               cosine * v - sine * u + 0.5 * (before.height() - 1)};
+        };
+        const auto inside = [](double at, int end) { return std::clamp(int(std::lround(at)), 0, end - 1); };
+        ism::RgbImage after(side, side);
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const ism::Point2 at = in_image(x, y);
+                const double left = std::floor(at.x), top = std::floor(at.y);
+                std::array<double, 3> color{};
+                for (const double dy : {0.0, 1.0})
+                    for (const double dx : {0.0, 1.0}) {
+                        const ism::Rgb c =
+                            before(inside(left + dx, before.width()), inside(top + dy, before.height()));
+                        const double weight =
+                            (1 - std::abs(at.x - left - dx)) * (1 - std::abs(at.y - top - dy));
+                        color[0] += weight * c.r, color[1] += weight * c.g, color[2] += weight * c.b;
+                    }
+                const auto byte = [](double value) { return std::uint8_t(std::lround(value)); };
+                after(x, y) = {byte(color[0]), byte(color[1]), byte(color[2])};
+            }
+        for (ism::DatasetAnnotation& object : image.objects) {
+            const ism::Mask mask = ism::read_mask(image, object);
+            ism::Mask turned_mask(side, side);
+            int left = side, top = side, right = 0, bottom = 0;
+            for (int y = 0; y < side; ++y)
+                for (int x = 0; x < side; ++x) {
+                    const ism::Point2 at = in_image(x, y);
+                    const int u = int(std::lround(at.x)), v = int(std::lround(at.y));
+                    if (!mask.contains(u, v) || mask(u, v) == 0) continue;
+                    turned_mask(x, y) = 1;
+                    left = std::min(left, x), right = std::max(right, x + 1);
+                    top = std::min(top, y), bottom = std::max(bottom, y + 1);
+                }
+            object.box = {double(left), double(top), double(right - left), double(bottom - top)};
+            object.segmentation = ism::compress_mask(turned_mask.view());
+        }
+        std::erase_if(image.objects, [](const auto& object) { return object.box.width <= 0; });
+        image.file = folder / (image.file.stem().string() + ".png");
+        image.depth_file.clear(), image.camera.reset();
+        image.width = image.height = side;
+        ism::write_png(image.file, after);
+    }
+    return set;
+}
+
 /// What an image shows: its instance, or car7 of car7-090-000.png; the length comes first, so that car10
 /// follows car9.
 [[nodiscard]] std::pair<std::size_t, std::string> object_of(const ism::DatasetImage& image) {
@@ -121,7 +183,7 @@ namespace fs = std::filesystem;
 int main(int argc, char** argv) try {
     const std::vector<std::string> words(argv + 1, argv + argc);
     const std::string what = words.empty() ? "" : words[0];
-    const std::size_t count = what == "without-object" ? 5 : what == "rescaled" ? 3 : 4;
+    const std::size_t count = what == "without-object" ? 5 : what == "rescaled" || what == "turned" ? 3 : 4;
     ism::expect(words.size() == count, "arguments", "those of the head of figure_sets.cpp", words.size());
     ism::Dataset set = ism::read_dataset(words[1]);
     if (what == "without-object") {
@@ -129,9 +191,10 @@ int main(int argc, char** argv) try {
         ism::write_dataset(words[4], of_object(std::move(set), words[2], true));
     } else if (what == "random-part") {
         ism::write_dataset(words[3], random_part(std::move(set), words[2]));
-    } else if (what == "rescaled") {
+    } else if (what == "rescaled" || what == "turned") {
         const fs::path folder = words[2];
-        ism::write_dataset(folder / "set.json", rescaled(std::move(set), folder));
+        ism::write_dataset(folder / "set.json", what == "turned" ? turned(std::move(set), folder)
+                                                                 : rescaled(std::move(set), folder));
     } else {
         if (what == "only-background") set.images.clear();
         ism::write_dataset(words[3], with_background(std::move(set), words[2]));
