@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -129,8 +130,10 @@ void run_train(const TrainCommand& command) {
         const bool free = command.orientation == "free" || !shared.one_side_up();
         extractors.front().options().oriented = free;
         orientation =
-            ism::join_text(" (", std::lround(100 * shared.upright_share()), " % of ", shared.count,
-                           " features that training objects share have one side up; 17 % by chance)");
+            shared.tell()
+                ? ism::join_text(" (", std::lround(100 * shared.upright_share()), " % of ", shared.count,
+                                 " features that training objects share have one side up; 17 % by chance)")
+                : " (training objects share too few features to tell)";
         // Templates judge as training objects lie: learnt from upright ones they would refuse turned ones.
         if (free && shared.one_side_up()) templates = false;
     }

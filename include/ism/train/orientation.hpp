@@ -38,9 +38,11 @@ struct SharedFeatures {
 
     /// @brief Near 1 where objects have one side up, 1/6 where they are turned at random.
     [[nodiscard]] double upright_share() const { return count > 0 ? double(upright) / double(count) : 1; }
+    /// @brief Whether there are enough pairs to know.
+    [[nodiscard]] bool tell() const { return count >= 30; }
     /// @brief Whether they have, so that features need no directions: almost twice what chance gives, or
     /// too few pairs to know.
-    [[nodiscard]] bool one_side_up() const { return count < 30 || upright_share() >= 0.3; }
+    [[nodiscard]] bool one_side_up() const { return !tell() || upright_share() >= 0.3; }
 };
 
 namespace detail {
