@@ -82,59 +82,71 @@ namespace fs = std::filesystem;
     return set;
 }
 
-/// Each image turned about its middle by a random angle, on a square larger than it by a quarter; what lies
-/// beyond its edges is as they are. Labels are those of the turned masks.
+/// An image turned about its middle, on a square.
+struct Turn {
+    double cosine, sine;
+    int width, height;  ///< of the image before
+    int side;           ///< of the square
+
+    /// Where a pixel of the square comes from.
+    [[nodiscard]] ism::Point2 before(int x, int y) const {
+        const double u = x - 0.5 * (side - 1), v = y - 0.5 * (side - 1);
+        return {cosine * u + sine * v + 0.5 * (width - 1), cosine * v - sine * u + 0.5 * (height - 1)};
+    }
+};
+
+/// Between pixels interpolated, beyond the edges as they are.
+[[nodiscard]] ism::Rgb color_at(const ism::RgbImage& image, ism::Point2 at) {
+    const auto inside = [](double place, int end) { return std::clamp(int(std::lround(place)), 0, end - 1); };
+    const double left = std::floor(at.x), top = std::floor(at.y);
+    std::array<double, 3> color{};
+    for (const double dy : {0.0, 1.0})
+        for (const double dx : {0.0, 1.0}) {
+            const ism::Rgb c = image(inside(left + dx, image.width()), inside(top + dy, image.height()));
+            const double weight = (1 - std::abs(at.x - left - dx)) * (1 - std::abs(at.y - top - dy));
+            color[0] += weight * c.r, color[1] += weight * c.g, color[2] += weight * c.b;
+        }
+    const auto byte = [](double value) { return std::uint8_t(std::lround(value)); };
+    return {byte(color[0]), byte(color[1]), byte(color[2])};
+}
+
+/// An object with its mask turned, and the box around that, which is empty where nothing is left of it.
+[[nodiscard]] ism::DatasetAnnotation turned_object(ism::DatasetAnnotation object, const ism::Mask& mask,
+                                                   const Turn& turn) {
+    ism::Mask after(turn.side, turn.side);
+    int left = turn.side, top = turn.side, right = 0, bottom = 0;
+    for (int y = 0; y < turn.side; ++y)
+        for (int x = 0; x < turn.side; ++x) {
+            const ism::Point2 at = turn.before(x, y);
+            const int u = int(std::lround(at.x)), v = int(std::lround(at.y));
+            if (!mask.contains(u, v) || mask(u, v) == 0) continue;
+            after(x, y) = 1;
+            left = std::min(left, x), right = std::max(right, x + 1);
+            top = std::min(top, y), bottom = std::max(bottom, y + 1);
+        }
+    object.box = {double(left), double(top), double(right - left), double(bottom - top)};
+    object.segmentation = ism::compress_mask(after.view());
+    return object;
+}
+
+/// Each image turned by a random angle, on a square larger than it by a quarter.
 [[nodiscard]] ism::Dataset turned(ism::Dataset set, const fs::path& folder) {
     fs::create_directories(folder);
     ism::Random random(1);
     for (ism::DatasetImage& image : set.images) {
         const ism::RgbImage before = ism::read_rgb(image.file);
-        const int side = std::max(before.width(), before.height()) * 5 / 4;
-        const double angle = random.uniform(0, 2 * std::numbers::pi), cosine = std::cos(angle),
-                     sine = std::sin(angle);
-        const auto in_image = [&](int x, int y) {  // where it comes from
-            const double u = x - 0.5 * (side - 1), v = y - 0.5 * (side - 1);
-            return ism::Point2{cosine * u + sine * v + 0.5 * (before.width() - 1),
-                               cosine * v - sine * u + 0.5 * (before.height() - 1)};
-        };
-        const auto inside = [](double at, int end) { return std::clamp(int(std::lround(at)), 0, end - 1); };
-        ism::RgbImage after(side, side);
-        for (int y = 0; y < side; ++y)
-            for (int x = 0; x < side; ++x) {
-                const ism::Point2 at = in_image(x, y);
-                const double left = std::floor(at.x), top = std::floor(at.y);
-                std::array<double, 3> color{};
-                for (const double dy : {0.0, 1.0})
-                    for (const double dx : {0.0, 1.0}) {
-                        const ism::Rgb c =
-                            before(inside(left + dx, before.width()), inside(top + dy, before.height()));
-                        const double weight =
-                            (1 - std::abs(at.x - left - dx)) * (1 - std::abs(at.y - top - dy));
-                        color[0] += weight * c.r, color[1] += weight * c.g, color[2] += weight * c.b;
-                    }
-                const auto byte = [](double value) { return std::uint8_t(std::lround(value)); };
-                after(x, y) = {byte(color[0]), byte(color[1]), byte(color[2])};
-            }
-        for (ism::DatasetAnnotation& object : image.objects) {
-            const ism::Mask mask = ism::read_mask(image, object);
-            ism::Mask turned_mask(side, side);
-            int left = side, top = side, right = 0, bottom = 0;
-            for (int y = 0; y < side; ++y)
-                for (int x = 0; x < side; ++x) {
-                    const ism::Point2 at = in_image(x, y);
-                    const int u = int(std::lround(at.x)), v = int(std::lround(at.y));
-                    if (!mask.contains(u, v) || mask(u, v) == 0) continue;
-                    turned_mask(x, y) = 1;
-                    left = std::min(left, x), right = std::max(right, x + 1);
-                    top = std::min(top, y), bottom = std::max(bottom, y + 1);
-                }
-            object.box = {double(left), double(top), double(right - left), double(bottom - top)};
-            object.segmentation = ism::compress_mask(turned_mask.view());
-        }
+        const double angle = random.uniform(0, 2 * std::numbers::pi);
+        const Turn turn{std::cos(angle), std::sin(angle), before.width(), before.height(),
+                        std::max(before.width(), before.height()) * 5 / 4};
+        ism::RgbImage after(turn.side, turn.side);
+        for (int y = 0; y < turn.side; ++y)
+            for (int x = 0; x < turn.side; ++x) after(x, y) = color_at(before, turn.before(x, y));
+        for (ism::DatasetAnnotation& object : image.objects)
+            object = turned_object(object, ism::read_mask(image, object), turn);
         std::erase_if(image.objects, [](const auto& object) { return object.box.width <= 0; });
         image.file = folder / (image.file.stem().string() + ".png");
         image.depth_file.clear(), image.camera.reset();
-        image.width = image.height = side;
+        image.width = image.height = turn.side;
         ism::write_png(image.file, after);
     }
     return set;

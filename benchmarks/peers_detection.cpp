@@ -138,8 +138,8 @@ int main(int argc, char** argv) try {
     std::uint64_t draws = 5;
     bench::DlibOptions dlib_options;
     CLI::App app(
-        "Detection from few examples: templates, votes, and dlib's gradient histograms; "
-        "--threads learn, one searches.");
+        "Detection from few examples: templates, votes, and dlib's gradient histograms. One thread searches; "
+        "--threads is of learning.");
     options.add_to(app);
     app.add_option("--counts", counts, "training images a class")->delimiter(',')->capture_default_str();
     app.add_option("--draws", draws, "of training images")->capture_default_str();

@@ -90,6 +90,13 @@ std::string lessons_text(const ism::ShapeModel& shapes) {
     return list_text(lessons);
 }
 
+/// What training objects tell of how they lie.
+std::string text_of(const ism::SharedFeatures& shared) {
+    if (!shared.conclusive()) return " (training objects share too few features to tell)";
+    return ism::join_text(" (", std::lround(100 * shared.upright_share()), " % of ", shared.count,
+                          " features that training objects share have one side up; 17 % by chance)");
+}
+
 }  // namespace
 
 void run_train(const TrainCommand& command) {
@@ -122,20 +129,16 @@ void run_train(const TrainCommand& command) {
     };
     auto extractors =
         known ? known->extractors : std::vector{make_extractor(command.detector, command.descriptor)};
+    std::string why_so;
     bool templates = command.templates && (!known || known->templates);
-    std::string orientation;
     if (!known && command.orientation != "upright") {
         const ism::SharedFeatures shared =
             program::shared_features(dataset.class_names, named_images(dataset), extractors, options.threads);
         const bool free = command.orientation == "free" || !shared.one_side_up();
         extractors.front().options().oriented = free;
-        orientation =
-            shared.tell()
-                ? ism::join_text(" (", std::lround(100 * shared.upright_share()), " % of ", shared.count,
-                                 " features that training objects share have one side up; 17 % by chance)")
-                : " (training objects share too few features to tell)";
         // Templates judge as training objects lie: learnt from upright ones they would refuse turned ones.
-        if (free && shared.one_side_up()) templates = false;
+        templates = templates && !(free && shared.one_side_up());
+        why_so = text_of(shared);
     }
     options.features.pixels = templates;
     ism::TrainingFeatures features =
@@ -164,7 +167,7 @@ void run_train(const TrainCommand& command) {
     std::printf("\nwords        %zu\n", model.words());
     std::printf("occurrences  %zu\n", model.shapes.occurrences.values().size());
     std::printf("upsampling   %.3g\n", settings.options.upsampling);
-    std::printf("orientation  %s%s\n", settings.options.oriented ? "free" : "upright", orientation.c_str());
+    std::printf("orientation  %s%s\n", settings.options.oriented ? "free" : "upright", why_so.c_str());
     std::printf("templates    %s\n", model.templates.empty() ? "no" : "yes");
     if (!depth.empty()) std::printf("depth        %s\n", depth.c_str());
     std::printf("seconds      %.1f\n", watch.seconds());

@@ -143,6 +143,9 @@ TEST_CASE("training features that were found in another way cannot be joined") {
     other.settings[0].options.upsampling = 2;
     CHECK_THROWS_WITH(ism::append(own, other), Catch::Contains("upsampling: expected 1, got 2"));
     other = own;
+    other.settings[0].options.oriented = true;
+    CHECK_THROWS_WITH(ism::append(own, other), Catch::Contains("oriented: expected 0, got 1"));
+    other = own;
     other.settings[0].descriptor = "sift";
     CHECK_THROWS_WITH(ism::append(own, other),
                       Catch::Contains("expected hessian-laplace, root-sift, got hessian-laplace, sift"));

@@ -74,7 +74,7 @@ TEST_CASE("features that objects share tell whether the objects are turned") {
     CHECK(changed([](ism::Occurrence& o) { o.x /= 3, o.y /= 3; }) == 0);
     CHECK(ism::shared_features(objects_turned_by({1})).count == 0);
     CHECK(ism::shared_features(objects_turned_by({1})).one_side_up());
-    CHECK_FALSE(ism::shared_features(objects_turned_by({1})).tell());
+    CHECK_FALSE(ism::shared_features(objects_turned_by({1})).conclusive());
 }
 
 TEST_CASE("objects that are turned at random are found however they are turned") {

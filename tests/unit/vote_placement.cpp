@@ -57,6 +57,9 @@ TEST_CASE("the box around a turned object holds its figure and hardly more") {
     for (int y = 0; y < 30; ++y)
         for (int x = 0; x < 50; ++x) object.mask(x, y) = x == 0 || y == 29 ? 255 : 100;
     object.reach = ism::figure_reach(object.mask, object.width, object.height);
+    const auto of_nothing = ism::figure_reach(ism::Mask(50, 30, 100), 100, 60);
+    CHECK(of_nothing[0] == Approx(50));
+    CHECK(of_nothing[ism::reach_directions / 8] == Approx(80 * std::sqrt(0.5)));
     CHECK(object.reach[0] == Approx(50));
     CHECK(object.reach[ism::reach_directions / 4] == Approx(30));
     CHECK(ism::placed_box({{50, 40}, 0.5, 0}, object) == ism::box_around({50, 40}, 50, 30));

@@ -45,6 +45,13 @@ public:
         groups_.push_back(word.group);
     }
 
+    /// @brief A word that stands for this descriptor alone.
+    void push_back_descriptor(std::span<const float> descriptor) {
+        double sq_length = 0;
+        for (const float number : descriptor) sq_length += double(number) * number;
+        push_back({descriptor, static_cast<float>(sq_length)});
+    }
+
     /// @brief The means of all words, and what else is known of each: a list as long as there are words.
     [[nodiscard]] const Descriptors<float>& means() const { return means_; }
     [[nodiscard]] const std::vector<float>& mean_sq_lengths() const { return mean_sq_lengths_; }

@@ -15,7 +15,8 @@ namespace ism {
 
 /// @brief How far a mask reaches from the middle of its box, in each direction: the largest dot product of
 /// one of its corners with the direction, pixels.
-/// @param mask           share of figure, 0 … 255; cells of half or more count
+/// @param mask           share of figure, 0 … 255; cells of half or more count; without
+///                       such, all do
 /// @param width, height  of the box, pixels
 [[nodiscard]] inline std::array<float, reach_directions> figure_reach(const Mask& mask, double width,
                                                                       double height) {
@@ -31,13 +32,17 @@ namespace ism {
         for (std::size_t d = 0; d < reach_directions; ++d)
             reach[d] = std::max(reach[d], cosine[d] * x + sine[d] * y);
     };
+    bool thin = true;  // no cell is figure by half: its box stands for it
     for (int row = 0; row < mask.height(); ++row) {
         int first = mask.width(), end = 0;
         for (int column = 0; column < mask.width(); ++column)
             if (mask(column, row) >= 128) first = std::min(first, column), end = column + 1;
         if (end == 0) continue;
         for (const int line : {row, row + 1}) reach_to(first, line), reach_to(end, line);
+        thin = false;
     }
+    if (thin)
+        for (const int line : {0, mask.height()}) reach_to(0, line), reach_to(mask.width(), line);
     return reach;
 }
 

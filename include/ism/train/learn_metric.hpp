@@ -93,9 +93,7 @@ struct MetricWords {
                   model.shapes.objects.begin() + views[i]->first_object);
         const Descriptors<float>& descriptors = views[i]->channels[0].descriptors;
         for (std::size_t f = 0; f < descriptors.size(); ++f) {
-            double sq_length = 0;
-            for (const float number : descriptors.row(f)) sq_length += double(number) * number;
-            codebook.push_back({descriptors.row(f), static_cast<float>(sq_length), 1, 0});
+            codebook.push_back_descriptor(descriptors.row(f));
             std::vector<Occurrence> seen;
             if (parts[i].occurrences[f]) {
                 seen.push_back(*parts[i].occurrences[f]);

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,10 +38,10 @@ struct SharedFeatures {
     /// @brief Near 1 where objects have one side up, 1/6 where they are turned at random.
     [[nodiscard]] double upright_share() const { return count > 0 ? double(upright) / double(count) : 1; }
     /// @brief Whether there are enough pairs to know.
-    [[nodiscard]] bool tell() const { return count >= 30; }
+    [[nodiscard]] bool conclusive() const { return count >= 30; }
     /// @brief Whether they have, so that features need no directions: almost twice what chance gives, or
     /// too few pairs to know.
-    [[nodiscard]] bool one_side_up() const { return !tell() || upright_share() >= 0.3; }
+    [[nodiscard]] bool one_side_up() const { return !conclusive() || upright_share() >= 0.3; }
 };
 
 namespace detail {
@@ -74,12 +73,8 @@ namespace detail {
     for (const TrainingSamples& channel : features.samples) {
         const std::vector<Occurrence>& all = channel.occurrences;
         Codebook codebook(channel.descriptors.dimension(), std::numeric_limits<double>::infinity());
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const std::span<const float> row = channel.descriptors.row(i);
-            codebook.push_back(
-                {.mean = row,
-                 .mean_sq_length = std::inner_product(row.begin(), row.end(), row.begin(), 0.0f)});
-        }
+        for (std::size_t i = 0; i < all.size(); ++i)
+            codebook.push_back_descriptor(channel.descriptors.row(i));
         const WordIndex index(codebook);
         for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
             Descriptors<float> own(channel.descriptors.dimension());

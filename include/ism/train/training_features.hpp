@@ -117,6 +117,8 @@ inline void number_features(std::vector<TrainingSamples>& samples) {
                lazy_text(b.detector, ", ", b.descriptor));
         expect(a.options.upsampling == b.options.upsampling, "training features to append: upsampling",
                a.options.upsampling, b.options.upsampling);
+        expect(a.options.oriented == b.options.oriented, "training features to append: oriented",
+               a.options.oriented, b.options.oriented);
     }
     const std::vector<std::uint32_t> class_of = detail::join_names(all.class_names, more.class_names);
     if (all.category_ids.empty() || more.category_ids.empty())
