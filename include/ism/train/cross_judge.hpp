@@ -51,13 +51,15 @@ struct JudgedBox {
 }
 
 /// What judges say of the boxes of an image, of those that overlap the best alone.
+/// @param pyramid  memory
 [[nodiscard]] inline std::vector<JudgedBox> judged_boxes(const TemplateImage& image,
                                                          std::span<const TemplateScorer> scorers,
                                                          const BoxClassifier& words,
-                                                         std::span<const ClassFigure> figures) {
+                                                         std::span<const ClassFigure> figures,
+                                                         HogPyramid& pyramid) {
     std::vector<JudgedBox> judged;
     ThreadPool pool(1);
-    const HogPyramid pyramid(image.color, finest_level(image.proposals), pool);
+    pyramid.assign(image.color, ism::finest_level(image.proposals), pool);
     for (std::uint32_t c = 0; c < scorers.size(); ++c) {
         std::vector<SearchedBox> kept;
         for (const SearchedBox& box :
@@ -89,6 +91,8 @@ struct JudgedBox {
     const BoxClassifierOptions word_options;
     const std::size_t of_image = std::max<std::size_t>(3, word_options.max_hypotheses / 2 / images.size());
     std::vector<JudgedBox> judged;
+    ThreadPool workers(threads);
+    std::vector<HogPyramid> pyramids(workers.size());  // large: their memory is used again
     for (int half = 0; half < 2; ++half) {
         const std::vector<const TemplateImage*>& unknown = halves[half];
         std::vector<TemplateImage> known;
@@ -105,8 +109,8 @@ struct JudgedBox {
                                        threads);
         const std::vector<TemplateScorer> scorers(templates.begin(), templates.end());
         std::vector<std::vector<JudgedBox>> found(unknown.size());
-        parallel_for(unknown.size(), threads, [&](std::size_t i) {
-            found[i] = judged_boxes(*unknown[i], scorers, words, model.figures);
+        workers.for_each(unknown.size(), [&](std::size_t i, unsigned worker) {
+            found[i] = judged_boxes(*unknown[i], scorers, words, model.figures, pyramids[worker]);
         });
         for (const auto& part : found) judged.insert(judged.end(), part.begin(), part.end());
     }

@@ -179,10 +179,11 @@ private:
     std::vector<float> cells_, mirror_;
 };
 
-[[nodiscard]] inline HogPyramid pyramid_of(const TemplateImage& image, ThreadPool& pool) {
+/// The finest level of an image's pyramid that its boxes need.
+[[nodiscard]] inline int finest_level(const TemplateImage& image) {
     std::vector<ProposedBox> boxes = image.proposals;
     for (const ObjectLabel& label : image.labels) boxes.push_back({label.class_index, label.box});
-    return HogPyramid(image.color, finest_level(boxes), pool);
+    return ism::finest_level(boxes);
 }
 
 /// What an image shows of a class, and what is none: hypotheses, and boxes beside or across objects.
@@ -285,15 +286,18 @@ inline void fit_template(BoxTemplate& one, const TemplateExamples& examples, std
                       of_image = std::max<std::size_t>(2, max_rows / images.size());
     std::vector<detail::TemplateExamples> examples(classes);
     std::vector<std::vector<std::uint8_t>> sides(classes);
+    ThreadPool workers(threads);
     for (int round = 0; round <= options.mining_rounds; ++round) {
         std::vector<TemplateScorer> scorers;
         for (std::size_t c = 0; round > 0 && c < classes; ++c) scorers.emplace_back(templates[c]);
         std::vector<std::vector<detail::TemplateExamples>> found(images.size());
+        std::vector<HogPyramid> pyramids(workers.size());  // large: their memory is used again
         ProgressCounter counter(progress, round == 0 ? "describing boxes" : "mining negatives",
                                 images.size());
-        parallel_for(images.size(), threads, [&](std::size_t i) {
+        workers.for_each(images.size(), [&](std::size_t i, unsigned worker) {
             ThreadPool pool(1);
-            const HogPyramid pyramid = detail::pyramid_of(images[i], pool);
+            HogPyramid& pyramid = pyramids[worker];
+            pyramid.assign(images[i].color, detail::finest_level(images[i]), pool);
             Random random(i + 1 + std::size_t(round) * images.size());
             for (std::uint32_t c = 0; c < classes; ++c) {
                 if (round == 0)
@@ -306,11 +310,12 @@ inline void fit_template(BoxTemplate& one, const TemplateExamples& examples, std
             }
             counter.step();
         });
+        pyramids.clear();
         for (auto& of_one : found) {
             for (std::size_t c = 0; c < classes; ++c) examples[c].append(of_one[c]);
             of_one.clear();
         }
-        parallel_for(classes, threads, [&](std::size_t c) {
+        workers.for_each(classes, [&](std::size_t c, unsigned) {
             detail::fit_template(templates[c], examples[c], sides[c], options.cost);
         });
     }
