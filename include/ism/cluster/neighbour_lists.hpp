@@ -24,7 +24,7 @@ struct Neighbour {
 /// list is complete: all clusters that are not on it lie at that distance or further.
 class NeighbourLists {
 public:
-    static constexpr std::size_t capacity = 16;
+    static constexpr std::size_t capacity = 8;  // a cache line; of longer lists little is ever asked for
 
     /// A bit more than a squared distance, so that nothing that near in double is lost by rounding.
     [[nodiscard]] static float limit_of(double sq_distance) {

@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ism/config.hpp"
@@ -88,21 +89,20 @@ inline void make_orthonormal(RowMatrix& columns) {
 }
 
 /// `count` orthonormal directions near those along which the points (one after another, centred) spread most,
-/// as columns: orthogonal iteration from a random start. How near does not matter to bounds that hold for any
-/// directions.
+/// as columns: three steps of subspace iteration from a random start. How near does not matter to bounds that
+/// hold for any directions.
 [[nodiscard]] inline RowMatrix principal_directions(std::span<const float> points, std::size_t dimension,
                                                     std::size_t count) {
     Random random(1);
     RowMatrix directions(dimension, count), next(dimension, count);
     for (std::size_t c = 0; c < count; ++c)
-        for (std::size_t k = 0; k < dimension; ++k) directions.row(k)[c] = random.normal();
-    make_orthonormal(directions);
+        for (std::size_t k = 0; k < dimension; ++k) directions.row(k)[c] = random.uniform(-1, 1);
     const RowMatrix scatter = scatter_matrix(points, dimension);
     for (int round = 0; round < 3; ++round) {
         for (std::size_t k = 0; k < dimension; ++k) directions.weigh(scatter.row(k).data(), 1, next.row(k));
-        directions = next;
-        make_orthonormal(directions);
+        std::swap(directions, next);
     }
+    make_orthonormal(directions);
     return directions;
 }
 

@@ -39,7 +39,7 @@ public:
                 centred[k] = start.means[i * dimension + k] - float(middle[k]);
         };
 
-        const std::size_t sample = whole_ ? 0 : std::min<std::size_t>(count, 256);
+        const std::size_t sample = whole_ ? 0 : std::min<std::size_t>((count + 3) / 4, 128);
         std::vector<float> points(sample * dimension);
         for (std::size_t s = 0; s < sample; ++s) centre(s * count / sample, points.data() + s * dimension);
         const RowMatrix directions =
