@@ -35,7 +35,7 @@ elseif(WAY STREQUAL "single_header")
     step("make" "${ISM_SOURCE}/scripts/amalgamate" "${SCRATCH}/single/ism/ism.hpp")
     execute_process(COMMAND "${ISM_SOURCE}/scripts/amalgamate" WORKING_DIRECTORY "${SCRATCH}/elsewhere" RESULT_VARIABLE result)
     step("make again" "${CMAKE_COMMAND}" -E compare_files "${SCRATCH}/single/ism/ism.hpp" "${SCRATCH}/elsewhere/ism_single.hpp")
-    step("compile" ${compile} -march=native -Wall -Wextra -Wpedantic -Wshadow -Werror -MMD -MF "${SCRATCH}/read.d" "-I${SCRATCH}/single" "${source}/main.cpp"
+    step("compile" ${compile} -Og -march=native -Wall -Wextra -Wpedantic -Wshadow -Werror -MMD -MF "${SCRATCH}/read.d" "-I${SCRATCH}/single" "${source}/main.cpp"
          "${source}/second.cpp")
     file(READ "${SCRATCH}/read.d" files)
     if(files MATCHES "${ISM_SOURCE}/include/" OR NOT files MATCHES "${SCRATCH}/single/ism/ism.hpp")
