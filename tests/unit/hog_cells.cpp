@@ -184,6 +184,25 @@ TEST_CASE("the levels of a large image stay small, those of a small one go as fi
     CHECK(small.level_for(1e6).width >= 2);
 }
 
+TEST_CASE("a pyramid describes an image the same, whatever it described before") {
+    ism::ThreadPool pool(2);
+    const auto small = blobs(61, 47, 8), large = blobs(150, 110, 9);
+    const ism::BoxGrid grid{6, 4, true};
+    const auto cells_of = [&](const ism::HogPyramid& pyramid) {
+        std::vector<float> cells(grid.cells() * ism::cell_numbers);
+        ism::CellScratch scratch;
+        ism::describe_cells(pyramid, {5, 3, 48, 32}, grid, cells, scratch);
+        return cells;
+    };
+    ism::HogPyramid used(large, ism::HogPyramid::finest, pool);
+    used.assign(small, 0, pool);
+    CHECK(cells_of(used) == cells_of(ism::HogPyramid(small, 0, pool)));
+    CHECK(used.width() == 61);
+    CHECK(used.level_for(0.1).width == 61);  // finer levels are gone
+    used.assign(large, -1, pool);
+    CHECK(cells_of(used) == cells_of(ism::HogPyramid(large, -1, pool)));
+}
+
 TEST_CASE("an image that shrinks keeps its mean, one of a single colour its colour") {
     ism::Random random(4);
     std::vector<float> image(37 * 23 * 3);
