@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ism/core/error.hpp"
@@ -61,41 +63,60 @@ struct DesignMatrix {
     return matrix;
 }
 
+/// The rows of a matrix by column: index = row.
+[[nodiscard]] inline Grouped<SparseEntry> transposed(const Grouped<SparseEntry>& rows, std::size_t columns) {
+    std::vector<std::uint32_t> offsets(columns + 1, 0);
+    for (const SparseEntry& entry : rows.values()) ++offsets[entry.index + 1];
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
+    std::vector<SparseEntry> entries(rows.values().size());
+    for (std::uint32_t row = 0; row < rows.size(); ++row)
+        for (const SparseEntry& entry : rows[row]) entries[next[entry.index]++] = {row, entry.value};
+    return {std::move(entries), std::move(offsets)};
+}
+
 /// By four sums, since each addition waits for the last.
-[[nodiscard]] inline double dot(std::span<const SparseEntry> row, std::span<const double> weight) {
+[[nodiscard]] inline double dot(std::span<const SparseEntry> sparse, std::span<const double> numbers) {
     double sums[4] = {};
     std::size_t k = 0;
-    for (; k + 4 <= row.size(); k += 4)
-        for (std::size_t l = 0; l < 4; ++l) sums[l] += double(row[k + l].value) * weight[row[k + l].index];
-    for (; k < row.size(); ++k) sums[0] += double(row[k].value) * weight[row[k].index];
+    for (; k + 4 <= sparse.size(); k += 4)
+        for (std::size_t l = 0; l < 4; ++l)
+            sums[l] += double(sparse[k + l].value) * numbers[sparse[k + l].index];
+    for (; k < sparse.size(); ++k) sums[0] += double(sparse[k].value) * numbers[sparse[k].index];
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 /// Logistic regression by AdaGrad (Duchi et al. 2011); positives and negatives weigh alike.
-/// @return the weights of the columns, and the bias after them
+/// @return the weights of the columns, and the bias after them; the same for any number of threads
 [[nodiscard]] inline std::vector<double> fit_logistic(const DesignMatrix& matrix,
-                                                      const BoxClassifierOptions& options) {
+                                                      const BoxClassifierOptions& options, ThreadPool& pool) {
     const std::size_t columns = matrix.bins.size(), rows = matrix.rows.size();
     const auto positives = std::size_t(std::count(matrix.positive.begin(), matrix.positive.end(), true));
     const double positive_weight = 0.5 / double(std::max<std::size_t>(1, positives));
     const double negative_weight = 0.5 / double(std::max<std::size_t>(1, rows - positives));
-    constexpr double rate = 0.3;
-    std::vector<double> weight(columns + 1, 0), slope(columns + 1), sq_slopes(columns + 1, 1e-8);
+    const Grouped<SparseEntry> by_column = transposed(matrix.rows, columns);
+    std::vector<double> weight(columns + 1, 0), sq_slopes(columns + 1, 1e-8), error(rows);
+    const auto descend = [&](std::size_t b, double slope) {
+        constexpr double rate = 0.3;
+        sq_slopes[b] += slope * slope;
+        weight[b] -= rate * slope / std::sqrt(sq_slopes[b]);
+    };
+    const auto each = [&](std::size_t count, const auto& body) {
+        constexpr std::size_t block = 256;
+        pool.for_each((count + block - 1) / block, [&](std::size_t k, unsigned) {
+            for (std::size_t i = k * block; i < std::min(count, (k + 1) * block); ++i) body(i);
+        });
+    };
     for (int step = 0; step < options.iterations; ++step) {
-        for (std::size_t b = 0; b < columns; ++b) slope[b] = options.regularisation * weight[b];
-        slope[columns] = 0;
-        for (std::size_t i = 0; i < rows; ++i) {
-            const double sum = weight[columns] + dot(matrix.rows[i], weight);
+        each(rows, [&](std::size_t i) {
             const bool positive = matrix.positive[i];
-            const double error = (1 / (1 + std::exp(-sum)) - double(positive)) *
-                                 (positive ? positive_weight : negative_weight);
-            for (const SparseEntry& entry : matrix.rows[i]) slope[entry.index] += error * double(entry.value);
-            slope[columns] += error;
-        }
-        for (std::size_t b = 0; b <= columns; ++b) {
-            sq_slopes[b] += slope[b] * slope[b];
-            weight[b] -= rate * slope[b] / std::sqrt(sq_slopes[b]);
-        }
+            const double predicted = 1 / (1 + std::exp(-weight[columns] - dot(matrix.rows[i], weight)));
+            error[i] = (predicted - double(positive)) * (positive ? positive_weight : negative_weight);
+        });
+        each(columns, [&](std::size_t b) {
+            descend(b, options.regularisation * weight[b] + dot(by_column[b], error));
+        });
+        descend(columns, std::accumulate(error.begin(), error.end(), 0.0));
     }
     return weight;
 }
@@ -127,17 +148,16 @@ struct DesignMatrix {
             used.push_back(&far.back());
         }
     }
-    std::vector<std::vector<SparseEntry>> weights(classes);
-    std::vector<float> bias(classes);
-    parallel_for(classes, threads, [&](std::size_t c) {
-        const detail::DesignMatrix matrix = detail::design_matrix(used, words, c, options.max_others);
-        const std::vector<double> fitted = detail::fit_logistic(matrix, options);
-        for (std::size_t b = 0; b < matrix.bins.size(); ++b)
-            weights[c].push_back({matrix.bins[b], static_cast<float>(fitted[b])});
-        bias[c] = static_cast<float>(fitted.back());
-    });
+    ThreadPool pool(threads);
     BoxClassifier classifier;
-    for (std::size_t c = 0; c < classes; ++c) classifier.push_back(weights[c], bias[c]);
+    for (std::size_t c = 0; c < classes; ++c) {
+        const detail::DesignMatrix matrix = detail::design_matrix(used, words, c, options.max_others);
+        const std::vector<double> fitted = detail::fit_logistic(matrix, options, pool);
+        std::vector<SparseEntry> weights;
+        for (std::size_t b = 0; b < matrix.bins.size(); ++b)
+            weights.push_back({matrix.bins[b], static_cast<float>(fitted[b])});
+        classifier.push_back(weights, static_cast<float>(fitted.back()));
+    }
     return classifier;
 }
 
