@@ -114,17 +114,13 @@ struct Turn {
 [[nodiscard]] ism::DatasetAnnotation turned_object(ism::DatasetAnnotation object, const ism::Mask& mask,
                                                    const Turn& turn) {
     ism::Mask after(turn.side, turn.side);
-    int left = turn.side, top = turn.side, right = 0, bottom = 0;
     for (int y = 0; y < turn.side; ++y)
         for (int x = 0; x < turn.side; ++x) {
             const ism::Point2 at = turn.before(x, y);
             const int u = int(std::lround(at.x)), v = int(std::lround(at.y));
-            if (!mask.contains(u, v) || mask(u, v) == 0) continue;
-            after(x, y) = 1;
-            left = std::min(left, x), right = std::max(right, x + 1);
-            top = std::min(top, y), bottom = std::max(bottom, y + 1);
+            if (mask.contains(u, v) && mask(u, v) != 0) after(x, y) = 1;
         }
-    object.box = {double(left), double(top), double(right - left), double(bottom - top)};
+    object.box = ism::mask_box(after);
     object.segmentation = ism::compress_mask(after.view());
     return object;
 }

@@ -8,9 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <limits>
+#include <exception>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/program_model.hpp"
@@ -33,7 +34,7 @@ using MetricModel = ism::TypedModel<ism::DifferenceOfGaussians, ism::RootSift>;
 
 /// What features vote through.
 struct Words {
-    std::string name;
+    std::string name = {};
     double similarity = 1;        ///< 1: each training feature is a word; less: clusters of them are
     std::size_t neighbours = 12;  ///< 0 = all words within the threshold
     bool background = true;       ///< features beside objects are words too
@@ -41,16 +42,20 @@ struct Words {
 };
 
 const std::vector<Words> all_words = {
-    {"12 nearest training features"},
-    {"4 nearest training features", 1, 4},
-    {"30 nearest training features", 1, 30},
-    {"12 nearest, background no class", 1, 12, false},
-    {"12 nearest words, similarity .95", 0.95},
-    {"12 nearest words, similarity .9", 0.9},
-    {"12 nearest words, similarity .82", 0.82},
-    {"all words within similarity .9", 0.9, 0, false},
-    {"all words within similarity .82", 0.82, 0, false},
-    {"... of two features or more", 0.82, 0, false, 2},
+    {.name = "12 nearest training features"},
+    {.name = "4 nearest training features", .neighbours = 4},
+    {.name = "30 nearest training features", .neighbours = 30},
+    {.name = "12 nearest, background no class", .background = false},
+    {.name = "12 nearest words, similarity .95", .similarity = 0.95},
+    {.name = "12 nearest words, similarity .9", .similarity = 0.9},
+    {.name = "12 nearest words, similarity .82", .similarity = 0.82},
+    {.name = "all words within similarity .9", .similarity = 0.9, .neighbours = 0, .background = false},
+    {.name = "all words within similarity .82", .similarity = 0.82, .neighbours = 0, .background = false},
+    {.name = "... of two features or more",
+     .similarity = 0.82,
+     .neighbours = 0,
+     .background = false,
+     .min_size = 2},
 };
 
 /// A model without what lies beside objects.
@@ -114,13 +119,12 @@ struct Found {
     double ap = 0, words = 0, bytes = 0, match_ms = 0, vote_ms = 0;
 };
 
-/// The mean of what was found by each kind of words.
+/// What was found by each kind of words, milliseconds a frame.
 [[nodiscard]] std::vector<Found> found_by_words(const ism::Dataset& train, const ism::Dataset& test,
                                                 unsigned threads) {
-    const auto features = ism::extract_training_features(
-        train.class_names, ism::training_set(train), {ism::metric_extractor()},
-        {.max_features = std::numeric_limits<std::size_t>::max(), .choose_upsampling = false, .depth = true},
-        threads);
+    const auto features =
+        ism::extract_training_features(train.class_names, ism::training_set(train), {ism::metric_extractor()},
+                                       {.choose_upsampling = false, .mirror = false, .depth = true}, threads);
     const ism::Model single = ism::learn_metric(features, {}, threads);
     const ism::Recognition<ism::Metric, ism::EpanechnikovKernel, ism::NoRescorer, ism::PatchSegmenter,
                            ism::NonMaximumSuppression>

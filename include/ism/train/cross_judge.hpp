@@ -51,7 +51,7 @@ struct JudgedBox {
 }
 
 /// What judges say of the boxes of an image, of those that overlap the best alone.
-/// @param pyramid  memory
+/// @param pyramid  of another image, whose memory is used
 [[nodiscard]] inline std::vector<JudgedBox> judged_boxes(const TemplateImage& image,
                                                          std::span<const TemplateScorer> scorers,
                                                          const BoxClassifier& words,
@@ -59,7 +59,7 @@ struct JudgedBox {
                                                          HogPyramid& pyramid) {
     std::vector<JudgedBox> judged;
     ThreadPool pool(1);
-    pyramid.assign(image.color, ism::finest_level(image.proposals), pool);
+    pyramid.assign(image.color, finest_level(image.proposals), pool);
     for (std::uint32_t c = 0; c < scorers.size(); ++c) {
         std::vector<SearchedBox> kept;
         for (const SearchedBox& box :

@@ -179,11 +179,11 @@ private:
     std::vector<float> cells_, mirror_;
 };
 
-/// The finest level of an image's pyramid that its boxes need.
-[[nodiscard]] inline int finest_level(const TemplateImage& image) {
+/// The hypotheses and the labelled boxes of an image.
+[[nodiscard]] inline std::vector<ProposedBox> all_boxes(const TemplateImage& image) {
     std::vector<ProposedBox> boxes = image.proposals;
     for (const ObjectLabel& label : image.labels) boxes.push_back({label.class_index, label.box});
-    return ism::finest_level(boxes);
+    return boxes;
 }
 
 /// What an image shows of a class, and what is none: hypotheses, and boxes beside or across objects.
@@ -297,7 +297,7 @@ inline void fit_template(BoxTemplate& one, const TemplateExamples& examples, std
         workers.for_each(images.size(), [&](std::size_t i, unsigned worker) {
             ThreadPool pool(1);
             HogPyramid& pyramid = pyramids[worker];
-            pyramid.assign(images[i].color, detail::finest_level(images[i]), pool);
+            pyramid.assign(images[i].color, finest_level(detail::all_boxes(images[i])), pool);
             Random random(i + 1 + std::size_t(round) * images.size());
             for (std::uint32_t c = 0; c < classes; ++c) {
                 if (round == 0)

@@ -68,7 +68,7 @@ namespace detail {
 [[nodiscard]] inline SharedFeatures shared_features(const TrainingFeatures& features, unsigned threads = 0) {
     constexpr std::size_t most_like = 10;
     const double least_cosine = std::cos(std::numbers::pi / 6);
-    ThreadPool pool(thread_count(threads));
+    ThreadPool pool(threads);
     SharedFeatures shared;
     for (const TrainingSamples& channel : features.samples) {
         const std::vector<Occurrence>& all = channel.occurrences;
@@ -82,9 +82,10 @@ namespace detail {
                 own.push_back(channel.descriptors.row(end));
             const WordRange without{std::uint32_t(first), std::uint32_t(end)};
             const std::vector<Neighbour> near = nearest_words(index, own, most_like, pool, without);
+            const std::size_t each = neighbours_each(index, most_like, without);
             for (std::size_t n = 0; n < near.size(); ++n) {
                 if (near[n].word == no_word) continue;
-                const Occurrence& one = all[first + n * own.size() / near.size()];
+                const Occurrence& one = all[first + n / each];
                 const Occurrence& other = all[near[n].word];
                 if (one.class_index != other.class_index) continue;
                 const std::optional<double> turn = detail::turn_between(one, other);
