@@ -1,20 +1,66 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
 
-# Every header alone: one source a header that includes it twice, so it lacks nothing and guards itself. All of
-# them are linked into one program, so what is defined in a header is inline.
+# Every header alone: what it names it includes, and it guards itself. All sources are linked into one program, so what
+# is defined in a header is inline. A header that another includes, directly or not, may stand before it: what the other
+# then sees is still only what it includes itself. So a source tests a chain of headers, a third of them the work of all.
 file(GLOB_RECURSE library_headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/include/ism/*.hpp")
 list(FILTER library_headers EXCLUDE REGEX "/adapt/(eigen|opencv|pcl)") # see bridge/
 file(GLOB toy_headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/examples" "${PROJECT_SOURCE_DIR}/examples/toy/*.hpp")
 
+foreach(header IN LISTS library_headers toy_headers)
+    set(folder "${PROJECT_SOURCE_DIR}/include")
+    if(header IN_LIST toy_headers)
+        set(folder "${PROJECT_SOURCE_DIR}/examples")
+    endif()
+    file(STRINGS "${folder}/${header}" lines REGEX "^ *# *include *\"(ism|toy)/")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${folder}/${header}") # other includes, other chains
+    list(TRANSFORM lines REPLACE ".*\"([^\"]+)\".*" "\\1" OUTPUT_VARIABLE own_${header})
+endforeach()
+set(by_reach "") # those that reach most first
+foreach(header IN LISTS library_headers toy_headers)
+    set(reached_${header} ${own_${header}})
+    set(next ${own_${header}})
+    while(next)
+        list(POP_FRONT next current)
+        foreach(included IN LISTS own_${current})
+            if(NOT included IN_LIST reached_${header})
+                list(APPEND reached_${header} "${included}")
+                list(APPEND next "${included}")
+            endif()
+        endforeach()
+    endwhile()
+    list(LENGTH reached_${header} count)
+    math(EXPR order "1000 + ${count}")
+    list(APPEND by_reach "${order} ${header}")
+endforeach()
+list(SORT by_reach ORDER DESCENDING)
+list(TRANSFORM by_reach REPLACE "^[0-9]+ " "")
+
 set(sources "${test_build_dir}/headers/main.cpp")
 file(CONFIGURE OUTPUT "${test_build_dir}/headers/main.cpp" CONTENT "int main() {}\n")
-foreach(header IN LISTS library_headers toy_headers)
-    string(MAKE_C_IDENTIFIER "${header}" name)
-    set(source "${test_build_dir}/headers/${name}.cpp")
-    file(CONFIGURE OUTPUT "${source}" CONTENT "#include \"${header}\"\n#include \"${header}\"  // a second time\n")
-    list(APPEND sources "${source}")
-endforeach()
+while(by_reach)
+    list(GET by_reach 0 last)
+    set(chain "")
+    set(before ${by_reach})
+    while(before) # the first of them that the chain's first header reaches is its next
+        list(GET before 0 header)
+        list(PREPEND chain "${header}")
+        list(REMOVE_ITEM by_reach "${header}")
+        set(reachable "")
+        foreach(other IN LISTS by_reach)
+            if(other IN_LIST reached_${header})
+                list(APPEND reachable "${other}")
+            endif()
+        endforeach()
+        set(before ${reachable})
+    endwhile()
+    list(TRANSFORM chain REPLACE "(.+)" "#include \"\\1\"\n")
+    string(CONCAT includes ${chain})
+    string(MAKE_C_IDENTIFIER "${last}" name)
+    file(CONFIGURE OUTPUT "${test_build_dir}/headers/${name}.cpp" CONTENT "${includes}// a second time\n${includes}")
+    list(APPEND sources "${test_build_dir}/headers/${name}.cpp")
+endwhile()
 
 add_executable(header_check EXCLUDE_FROM_ALL ${sources})
 set_target_properties(header_check PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${test_build_dir}/headers")
