@@ -31,7 +31,8 @@ inline constexpr std::size_t max_matches = std::size_t(1) << 26;
            index.dimension(), descriptors.dimension());
     const std::size_t blocks = (descriptors.size() + detail::filter_block - 1) / detail::filter_block;
     std::vector<std::vector<Match>> found(blocks);
-    std::vector<detail::BlockMatcher> matchers(pool.size(), detail::BlockMatcher(index));
+    std::vector<detail::BlockMatcher> matchers;
+    while (matchers.size() < pool.size()) matchers.emplace_back(index);
     std::atomic<std::size_t> total = 0;
     pool.for_each(blocks, [&](std::size_t block, unsigned worker) {
         found[block] = matchers[worker].match(descriptors, block * detail::filter_block);
