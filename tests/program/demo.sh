@@ -4,7 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
 
 # The demo on a small set writes all it says it writes, and may write over itself alone.
-make_toys
+"$ism" demo --small -o toys --threads 2 >demo.txt 2>demo.err || fail "demo: $(cat demo.err)"
 for space in ism jism ji3sm1 ji3sm2 ji3sm3; do
     grep -qE "^$space +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.]+ +0\.[0-9]+ +[0-9]+$" demo.txt ||
         fail "demo: expected a line of figures for $space, got: $(cat demo.txt)"

@@ -10,9 +10,14 @@ fail() {
     exit 1
 }
 
-# A toy set of a few small pictures in toys/: train.json, test.json, model.safetensors.
+# A toy set of a few small pictures in toys/: train.json, test.json, model.safetensors. Where the test program/toys ran
+# before, it has made them for all.
 make_toys() {
-    "$ism" demo --small -o toys --threads 2 >demo.txt 2>demo.err || fail "demo: $(cat demo.err)"
+    if [[ -e ../toys/toys/report.html ]]; then
+        cp -r ../toys/toys toys
+    else
+        "$ism" demo --small -o toys --threads 2 >/dev/null 2>demo.err || fail "demo: $(cat demo.err)"
+    fi
 }
 
 # refused <text> <command...>: ends with 2, says `text` on stderr, nothing on stdout, and leaves no file out*.
