@@ -19,7 +19,7 @@ endif()
 if(ISM_NATIVE)
     target_compile_options(ism_dev_options INTERFACE -march=native)
 endif()
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # it looks for memory to use again from 700 MB on, not from 128: up to a fourth of the time
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # its garbage collector begins at 700 MB, not at 128: about a tenth of the time
     target_compile_options(ism_dev_options INTERFACE --param=ggc-min-heapsize=700000)
 endif()
 target_include_directories(ism_dev_options INTERFACE "${PROJECT_SOURCE_DIR}/examples")
