@@ -69,7 +69,8 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
     std::vector<Way> ways = {{"all parts", finder(model, recognition)}};
     const auto add = [&](const char* name, Find find) { ways.push_back({name, std::move(find)}); };
     for (const auto& [name, weight] :
-         {std::pair{"words do not judge", &ism::CueWeights::words},
+         {std::pair{"patches do not judge", &ism::CueWeights::patches},
+          std::pair{"words do not judge", &ism::CueWeights::words},
           std::pair{"votes do not judge", &ism::CueWeights::votes},
           std::pair{"contrast of colours does not judge", &ism::CueWeights::colors}}) {
         bench::ProgramModel without = model;

@@ -7,12 +7,12 @@ cmake_minimum_required(VERSION 3.22)
 #   header | headers of ours it may reach | libraries it may reach (of those below)
 set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "iostream" "regex")
 set(budget
-    "ism.hpp                    | 144 | "
+    "ism.hpp                    | 145 | "
     "vote/axes.hpp              |  17 | "
     "detect/detect.hpp          | 100 | "
     "train/train_options.hpp    |   6 | "
     "train/training_image.hpp   |  10 | "
-    "train/train.hpp            | 131 | "
+    "train/train.hpp            | 133 | "
     "evaluate/evaluate.hpp      |  10 | "
     "core/frame.hpp             |   8 | "
     "feature/hessian_laplace.hpp|  27 | "
@@ -20,7 +20,7 @@ set(budget
     "dataset/dataset.hpp        |  13 | "
     "dataset/coco.hpp           |  19 | nlohmann/"
     "io/images.hpp              |  12 | stb/"
-    "model_file/model_file.hpp  |  63 | nlohmann/"
+    "model_file/model_file.hpp  |  66 | nlohmann/"
 )
 set(errors "")
 

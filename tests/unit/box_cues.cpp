@@ -96,12 +96,15 @@ TEST_CASE("votes weigh for the boxes that they stand for") {
 }
 
 TEST_CASE("cues are worth margins of a template") {
-    const ism::CueWeights weights{.words = 0.1, .votes = 0.2, .colors = 1};
-    const ism::BoxCues cues{.margin = 0.5, .word_logit = -2, .vote_weight = 0.9, .color_overlap = 0.25};
-    CHECK(weights.margin(cues) == Approx(0.5 - 0.2 + 0 - 0.25));
+    const ism::CueWeights weights{.patches = 0.5, .words = 0.1, .votes = 0.2, .colors = 1};
+    const ism::BoxCues cues{
+        .margin = 0.5, .word_logit = -2, .patch_margin = -0.8, .vote_weight = 0.9, .color_overlap = 0.25};
+    CHECK(weights.margin(cues) == Approx(0.5 - 0.4 - 0.2 + 0 - 0.25));
     CHECK(ism::CueWeights().margin(cues) == 0.5);
+    CHECK(ism::CueWeights{.patches = 2}.margin({.margin = 0.1, .patch_margin = 3}) == Approx(0.1));
     const ism::BoxReasons odds = weights.reasons(cues).in_odds(4, -1);
     CHECK(odds.look == Approx(2));
+    CHECK(odds.patches == Approx(-1.6));
     CHECK(odds.words == Approx(-0.8));
     CHECK(odds.votes == Approx(0).margin(1e-9));
     CHECK(odds.colors == Approx(-1));

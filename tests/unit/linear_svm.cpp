@@ -55,7 +55,8 @@ TEST_CASE("no step from the fitted classifier lowers its objective") {
                                         .positive_cost = GENERATE(1.0, 3.0),
                                         .tolerance = 1e-6,
                                         .max_rounds = 5000};
-    const auto fit = ism::fit_linear_svm(all.rows, all.dimension, all.positive, options);
+    const auto fit =
+        ism::fit_linear_svm(ism::row_starts(all.rows, all.dimension), all.dimension, all.positive, options);
     const double best = objective(all, fit, options);
     ism::Random random(2);
     for (int step = 0; step < 200; ++step) {
@@ -75,17 +76,21 @@ TEST_CASE("no step from the fitted classifier lowers its objective") {
 
 TEST_CASE("the default tolerance is near the optimum, and the same examples give the same bits") {
     const Examples all = clouds(400, 3);
-    const auto quick = ism::fit_linear_svm(all.rows, all.dimension, all.positive);
-    const auto exact =
-        ism::fit_linear_svm(all.rows, all.dimension, all.positive, {.tolerance = 1e-7, .max_rounds = 10000});
+    const auto quick =
+        ism::fit_linear_svm(ism::row_starts(all.rows, all.dimension), all.dimension, all.positive);
+    const auto exact = ism::fit_linear_svm(ism::row_starts(all.rows, all.dimension), all.dimension,
+                                           all.positive, {.tolerance = 1e-7, .max_rounds = 10000});
     CHECK(objective(all, quick, {}) < 1.001 * objective(all, exact, {}));
-    CHECK(ism::fit_linear_svm(all.rows, all.dimension, all.positive).weights == quick.weights);
+    CHECK(
+        ism::fit_linear_svm(ism::row_starts(all.rows, all.dimension), all.dimension, all.positive).weights ==
+        quick.weights);
 }
 
 TEST_CASE("examples of one kind give a classifier that says so") {
     Examples all = clouds(50, 4);
     std::fill(all.positive.begin(), all.positive.end(), std::uint8_t(0));
-    const auto fit = ism::fit_linear_svm(all.rows, all.dimension, all.positive);
+    const auto fit =
+        ism::fit_linear_svm(ism::row_starts(all.rows, all.dimension), all.dimension, all.positive);
     CHECK(fit.bias < -0.9);
     CHECK(ism::fit_linear_svm({}, 5, {}).weights == std::vector<float>(5, 0));
 }

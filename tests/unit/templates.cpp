@@ -142,6 +142,7 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
             ism::detail::JudgedBox box{.class_index = std::uint32_t(i % 2),
                                        .cues = {.margin = random.uniform(-2, 1),
                                                 .word_logit = random.uniform(-4, 2),
+                                                .patch_margin = random.uniform(-2, 1),
                                                 .vote_weight = std::exp(random.uniform(-3, 3)),
                                                 .color_overlap = random.uniform()}};
             const double margin = weights.margin(box.cues) + double(box.class_index);
@@ -150,14 +151,16 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
         }
         return ism::detail::fit_cue_weights(judged, 2);
     };
-    const ism::CueWeights found = learnt({.words = 0.1, .votes = 0.05, .colors = 1});
+    const ism::CueWeights found = learnt({.patches = 0.6, .words = 0.1, .votes = 0.05, .colors = 1});
+    CHECK(found.patches == Approx(0.6).margin(0.16));
     CHECK(found.words == Approx(0.1).margin(0.026));
     CHECK(found.votes == Approx(0.05).margin(0.026));
     CHECK(found.colors == Approx(1).margin(0.26));
+    CHECK(learnt({.patches = 3}).patches == Approx(1.2));
     CHECK(learnt({.words = 0.5}).words == Approx(0.2));
     CHECK(learnt({.votes = 0.5}).votes == Approx(0.1));
-    const ism::CueWeights none = learnt({.words = -0.5, .votes = -1, .colors = -3});
-    CHECK((none.words == 0 && none.votes == 0 && none.colors == 0));
+    const ism::CueWeights none = learnt({.patches = -1, .words = -0.5, .votes = -1, .colors = -3});
+    CHECK((none.patches == 0 && none.words == 0 && none.votes == 0 && none.colors == 0));
 }
 
 TEST_CASE("the same templates for any number of threads") {
@@ -165,6 +168,7 @@ TEST_CASE("the same templates for any number of threads") {
     const ism::Model words = ism::learn(features, {.box_classifier = {}, .calibrate = false});
     const ism::Model two = ism::learn_templates(words, features, small, 2);
     CHECK(two.templates == model_with_templates().templates);
+    CHECK(two.patch_classifier == model_with_templates().patch_classifier);
     CHECK(two.template_calibration.curves == model_with_templates().template_calibration.curves);
 }
 

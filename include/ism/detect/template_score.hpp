@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "ism/detect/proposals.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/detect/voted_boxes.hpp"
+#include "ism/hog/fisher_vector.hpp"
 #include "ism/hog/propose_boxes.hpp"
 #include "ism/vote/cast.hpp"
 #include "ism/vote/vote_space.hpp"
@@ -60,7 +62,8 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     const RgbImage& color = colors.image();
     const HogPyramid pyramid(color, finest_level(proposals), scene.pool);
     const CueWeights& weights = model.cue_weights;
-    const bool with_words = weights.words > 0 && !model.box_classifier.empty(),
+    const bool with_patches = weights.patches > 0 && !model.patch_classifier.empty(),
+               with_words = weights.words > 0 && !model.box_classifier.empty(),
                with_colors = weights.colors > 0 && !model.figures.empty();
     const WordMap words = with_words ? WordMap(scene.features, scene.matches, model.words()) : WordMap();
     const DetectOptions options = proposal_options();
@@ -80,10 +83,17 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
             margins.push_back(box.score);
         }
     }
-    scene.pool.for_each(found.size(), [&](std::size_t i, unsigned) {
+    const PatchMixture& mixture = model.patch_classifier.mixture;
+    const std::optional<FisherEncoder> encoder =
+        with_patches ? std::optional<FisherEncoder>(mixture) : std::nullopt;
+    std::vector<CellScratch> scratches(scene.pool.size());
+    scene.pool.for_each(found.size(), [&](std::size_t i, unsigned worker) {
         Detection& detection = found[i];
         const std::uint32_t c = detection.class_index;
         BoxCues cues{.margin = margins[i], .vote_weight = voted.weight(c, detection.box)};
+        if (encoder)
+            cues.patch_margin =
+                model.patch_classifier.margin(c, encoder->encode(pyramid, detection.box, scratches[worker]));
         if (with_words) cues.word_logit = model.box_classifier.logit(c, words.histogram(detection.box));
         if (with_colors) cues.color_overlap = color_overlap(color, detection.box, model.figures[c]);
         const BoxReasons reasons = weights.reasons(cues);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -22,6 +23,7 @@ using ClassFigure = std::vector<float>;
 struct BoxCues {
     double margin = 0;         ///< of the template
     double word_logit = 0;     ///< of the words in the box, see BoxClassifier
+    double patch_margin = 0;   ///< of what its patches look like, see PatchClassifier
     double vote_weight = 0;    ///< of the votes that stand for about this box
     double color_overlap = 1;  ///< of figure and ground, 0 … 1, see color_overlap()
 };
@@ -30,27 +32,29 @@ struct BoxCues {
 /// of a class, to the logarithm of the odds that a box shows it.
 struct BoxReasons {
     double look = 0;  ///< the template
-    double words = 0, votes = 0, colors = 0;
+    double patches = 0, words = 0, votes = 0, colors = 0;
     double any = 0;
 
     [[nodiscard]] bool empty() const { return look == 0 && any == 0; }
-    [[nodiscard]] double sum() const { return look + words + votes + colors + any; }
+    [[nodiscard]] double sum() const { return look + patches + words + votes + colors + any; }
     /// @brief Margins in logarithms of odds, by the curve of a class (Calibration).
     [[nodiscard]] BoxReasons in_odds(double slope, double offset) const {
-        return {slope * look, slope * words, slope * votes, slope * colors, offset};
+        return {slope * look, slope * patches, slope * words, slope * votes, slope * colors, offset};
     }
 };
 
 /// @brief How many margins of a template each other cue is worth.
 struct CueWeights {
-    double words = 0;   ///< a logit of the words
-    double votes = 0;   ///< e times the vote weight
-    double colors = 0;  ///< colours of figure and ground that have nothing in common
+    double patches = 0;  ///< a margin of the patches below 0: they speak against boxes, not for them
+    double words = 0;    ///< a logit of the words
+    double votes = 0;    ///< e times the vote weight
+    double colors = 0;   ///< colours of figure and ground that have nothing in common
     [[nodiscard]] bool operator==(const CueWeights&) const = default;
 
     /// @brief What each cue adds to the margin of all.
     [[nodiscard]] BoxReasons reasons(const BoxCues& cues) const {
         return {.look = cues.margin,
+                .patches = patches * std::min(0.0, cues.patch_margin),
                 .words = words * cues.word_logit,
                 .votes = votes * std::log(0.1 + cues.vote_weight),
                 .colors = -colors * cues.color_overlap};

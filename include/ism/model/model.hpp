@@ -14,6 +14,7 @@
 #include "ism/model/calibration.hpp"
 #include "ism/model/mask_exemplar.hpp"
 #include "ism/model/mask_judge.hpp"
+#include "ism/model/patch_classifier.hpp"
 #include "ism/model/shape_model.hpp"
 
 namespace ism {
@@ -44,6 +45,7 @@ struct Model {
     BoxClassifier box_classifier = {};         ///< may be empty
     Calibration calibration = {};              ///< of votes and box classifier; may be empty
     std::vector<BoxTemplate> templates = {};   ///< one a class; may be empty
+    PatchClassifier patch_classifier = {};     ///< of boxes that templates placed; may be empty
     CueWeights cue_weights = {};               ///< of what judges boxes with the templates
     std::vector<ClassFigure> figures = {};     ///< of each class; may be empty
     Calibration template_calibration = {};     ///< of templates with the other cues; may be empty

@@ -16,6 +16,7 @@
 #include "ism/io/write_file.hpp"
 #include "ism/model/model.hpp"
 #include "ism/model_file/judge_tensors.hpp"
+#include "ism/model_file/patch_tensors.hpp"
 #include "ism/model_file/safetensors.hpp"
 #include "ism/model_file/settings_json.hpp"
 #include "ism/model_file/shape_tensors.hpp"
@@ -27,7 +28,7 @@ namespace ism {
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 11;
+inline constexpr std::int64_t model_format_version = 12;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {
@@ -101,8 +102,8 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
 [[nodiscard]] inline TensorFile model_to_tensors(const Model& model, const std::string& source) {
     TensorFile file{.source = source};
     // A member that is added to Model does not compile here until it is kept too.
-    const auto& [channels, shapes, box_classifier, calibration, templates, cue_weights, figures,
-                 template_calibration, exemplars, mask_judge, training, rgbd] = model;
+    const auto& [channels, shapes, box_classifier, calibration, templates, patch_classifier, cue_weights,
+                 figures, template_calibration, exemplars, mask_judge, training, rgbd] = model;
     expect<FileError>(model.words() > 0 && shapes.occurrences.size() == model.words(),
                       lazy_text(source, ": words with occurrences"), model.words(),
                       shapes.occurrences.size());
@@ -129,6 +130,7 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     box_classifier_to_tensors(box_classifier, file);
     calibration_to_tensors(calibration, "calibration", file);
     templates_to_tensors(templates, file);
+    patch_classifier_to_tensors(patch_classifier, file);
     cue_weights_to_tensor(cue_weights, file);
     figures_to_tensor(figures, file);
     calibration_to_tensors(template_calibration, "template_calibration", file);
@@ -188,6 +190,7 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     model.box_classifier = box_classifier_from_tensors(file, model.words(), classes);
     model.calibration = calibration_from_tensors(file, "calibration", classes);
     model.templates = templates_from_tensors(file, classes);
+    model.patch_classifier = patch_classifier_from_tensors(file, classes);
     model.cue_weights = cue_weights_from_tensor(file);
     model.figures = figures_from_tensor(file, classes);
     model.template_calibration = calibration_from_tensors(file, "template_calibration", classes);

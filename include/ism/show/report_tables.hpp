@@ -87,6 +87,7 @@ namespace detail {
         table.rows.push_back({what, detail::signed_text(log_odds)});
     };
     add("look: gradients and colours of the template", reasons.look);
+    add("what patches look like, wherever they lie", reasons.patches);
     add("words in the box", reasons.words);
     add("votes that agree with the box", reasons.votes);
     add("colours shared with what is around", reasons.colors);

@@ -24,6 +24,7 @@
 #include "ism/train/fit_box_classifier.hpp"
 #include "ism/train/fit_box_templates.hpp"
 #include "ism/train/fit_calibration.hpp"
+#include "ism/train/fit_patch_classifier.hpp"
 #include "ism/train/training_boxes.hpp"
 
 /// What templates and other cues are worth together, from boxes on images that neither was fitted to.
@@ -52,12 +53,12 @@ struct JudgedBox {
 
 /// What judges say of the boxes of an image, of those that overlap the best alone.
 /// @param pyramid  of another image, whose memory is used
-[[nodiscard]] inline std::vector<JudgedBox> judged_boxes(const TemplateImage& image,
-                                                         std::span<const TemplateScorer> scorers,
-                                                         const BoxClassifier& words,
-                                                         std::span<const ClassFigure> figures,
-                                                         HogPyramid& pyramid) {
+[[nodiscard]] inline std::vector<JudgedBox> judged_boxes(
+    const TemplateImage& image, std::span<const TemplateScorer> scorers, const BoxClassifier& words,
+    const PatchClassifier& patches, std::span<const ClassFigure> figures, HogPyramid& pyramid) {
     std::vector<JudgedBox> judged;
+    const FisherEncoder encoder(patches.mixture);
+    CellScratch scratch;
     ThreadPool pool(1);
     pyramid.assign(image.color, finest_level(image.proposals), pool);
     for (std::uint32_t c = 0; c < scorers.size(); ++c) {
@@ -69,6 +70,7 @@ struct JudgedBox {
                 continue;
             kept.push_back(box);
             BoxCues cues{.margin = box.score,
+                         .patch_margin = patches.margin(c, encoder.encode(pyramid, box.box, scratch)),
                          .vote_weight = image.voted.weight(c, box.box),
                          .color_overlap = color_overlap(image.color, box.box, figures[c])};
             if (!words.empty()) cues.word_logit = words.logit(c, image.words.histogram(box.box));
@@ -80,8 +82,9 @@ struct JudgedBox {
 
 /// Each half of the images judged by what was fitted to the other; empty where a half lacks a class.
 [[nodiscard]] inline std::vector<JudgedBox> cross_judged(std::span<const TemplateImage> images,
-                                                         const Model& model, const TemplateOptions& options,
-                                                         unsigned threads, const Progress& progress) {
+                                                         const Model& model, const PatchMixture& mixture,
+                                                         const TemplateOptions& options, unsigned threads,
+                                                         const Progress& progress) {
     const std::size_t classes = model.shapes.class_names.size();
     std::vector<std::size_t> seen(classes + 1, 0);
     std::vector<const TemplateImage*> halves[2];
@@ -102,15 +105,16 @@ struct JudgedBox {
         for (const TemplateImage& image : known)
             for (const ObjectLabel& label : image.labels) shown[label.class_index] = true;
         if (std::find(shown.begin(), shown.end(), false) != shown.end()) continue;
-        const auto templates = fit_box_templates(known, classes, options, threads, progress);
+        const FittedTemplates fitted = fit_box_templates(known, classes, options, threads, progress);
+        const PatchClassifier patches = fit_patch_classifier(known, fitted.taken, mixture, classes, threads);
         BoxClassifier words;
         if (!model.box_classifier.empty())
             words = fit_box_classifier(word_boxes(known, of_image), model.words(), classes, word_options,
                                        threads);
-        const std::vector<TemplateScorer> scorers(templates.begin(), templates.end());
+        const std::vector<TemplateScorer> scorers(fitted.templates.begin(), fitted.templates.end());
         std::vector<std::vector<JudgedBox>> found(unknown.size());
         workers.for_each(unknown.size(), [&](std::size_t i, unsigned worker) {
-            found[i] = judged_boxes(*unknown[i], scorers, words, model.figures, pyramids[worker]);
+            found[i] = judged_boxes(*unknown[i], scorers, words, patches, model.figures, pyramids[worker]);
         });
         for (const auto& part : found) judged.insert(judged.end(), part.begin(), part.end());
     }
@@ -142,8 +146,10 @@ struct JudgedBox {
 /// worth about 1.5 ± .35: training images show little but the classes, and tell little of what they are worth
 /// elsewhere.
 [[nodiscard]] inline CueWeights fit_cue_weights(std::span<const JudgedBox> judged, std::size_t classes) {
-    constexpr std::pair<double CueWeights::*, double> most[] = {
-        {&CueWeights::words, 0.2}, {&CueWeights::votes, 0.1}, {&CueWeights::colors, 3}};
+    constexpr std::pair<double CueWeights::*, double> most[] = {{&CueWeights::patches, 1.2},
+                                                                {&CueWeights::words, 0.2},
+                                                                {&CueWeights::votes, 0.1},
+                                                                {&CueWeights::colors, 3}};
     CueWeights best;
     double least_loss = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 3; ++round)

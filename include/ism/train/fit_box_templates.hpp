@@ -13,6 +13,7 @@
 #include "ism/core/error.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/order.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/random.hpp"
 #include "ism/core/thread_pool.hpp"
@@ -212,46 +213,47 @@ private:
     return examples;
 }
 
-/// What a template takes for an object of its class wrongly, where detection would look for one.
-[[nodiscard]] inline std::vector<float> mined_negatives(const TemplateImage& image, const HogPyramid& pyramid,
-                                                        std::uint32_t class_index,
-                                                        const TemplateScorer& scorer, std::size_t max_count,
-                                                        ThreadPool& pool, Random& random) {
+/// What a template takes for objects of its class where detection would look for one: the boxes, and the
+/// cells of those that it takes for one wrongly.
+struct MinedBoxes {
+    std::vector<SearchedBox> boxes = {};
+    std::vector<float> negative = {};
+};
+
+[[nodiscard]] inline MinedBoxes mined_boxes(const TemplateImage& image, const HogPyramid& pyramid,
+                                            std::uint32_t class_index, const TemplateScorer& scorer,
+                                            std::size_t max_negatives, ThreadPool& pool, Random& random) {
     std::vector<ProposedBox> proposals = image.proposals;
     for (const ObjectLabel& label : image.labels)
         for (int k = 0; k < 4 && label.class_index == class_index; ++k)
             proposals.push_back({class_index, jittered(label.box, random, 0.4, 0.3, 0.3)});
-    std::vector<float> negative;
+    MinedBoxes mined;
     CellRows rows(pyramid, scorer.box_template().grid);
     std::size_t count = 0;
     for (const SearchedBox& box :
          propose_boxes(scorer, class_index, pyramid, proposals, searched_boxes, pool)) {
-        if (count == max_count || box.score <= -1) break;
+        if (count == max_negatives || box.score <= -1) break;
+        mined.boxes.push_back(box);
         if (best_iou(box.box, image.labels, class_index) >= 0.5) continue;
-        rows.append(box.box, box.mirrored, negative);
+        rows.append(box.box, box.mirrored, mined.negative);
         ++count;
     }
-    return negative;
+    return mined;
 }
 
 /// Fits the weights of a template, and then turns each object to the side that fits better.
 inline void fit_template(BoxTemplate& one, const TemplateExamples& examples, std::vector<std::uint8_t>& side,
                          double cost) {
     const std::size_t dimension = one.grid.cells() * cell_numbers;
-    const std::size_t positives = examples.plain.size() / dimension,
-                      negatives = examples.negative.size() / dimension;
     if (side.empty()) side = sides_of(examples.plain, examples.mirrored, dimension);
-    const auto row_of = [&](std::size_t i, bool mirrored) {
-        return std::span(mirrored ? examples.mirrored : examples.plain).subspan(i * dimension, dimension);
-    };
-    std::vector<float> rows;
-    rows.reserve(examples.plain.size() + examples.negative.size());
-    for (std::size_t i = 0; i < positives; ++i) {
-        const auto row = row_of(i, side[i] != 0);
-        rows.insert(rows.end(), row.begin(), row.end());
-    }
-    rows.insert(rows.end(), examples.negative.begin(), examples.negative.end());
-    std::vector<std::uint8_t> positive(positives + negatives, 0);
+    const auto plain = row_starts(examples.plain, dimension),
+               mirrored = row_starts(examples.mirrored, dimension),
+               negative = row_starts(examples.negative, dimension);
+    const std::size_t positives = plain.size(), negatives = negative.size();
+    std::vector<const float*> rows;
+    for (std::size_t i = 0; i < positives; ++i) rows.push_back(side[i] ? mirrored[i] : plain[i]);
+    rows.insert(rows.end(), negative.begin(), negative.end());
+    std::vector<std::uint8_t> positive(rows.size(), 0);
     std::fill_n(positive.begin(), positives, std::uint8_t(1));
     const double rarer = double(negatives) / double(positives);
     LinearClassifier fit = fit_linear_svm(rows, dimension, positive,
@@ -259,7 +261,7 @@ inline void fit_template(BoxTemplate& one, const TemplateExamples& examples, std
     for (std::size_t i = 0; i < positives; ++i) {
         double ahead = 0;
         for (std::size_t k = 0; k < dimension; ++k)
-            ahead += double(fit.weights[k]) * (row_of(i, true)[k] - row_of(i, false)[k]);
+            ahead += double(fit.weights[k]) * double(mirrored[i][k] - plain[i][k]);
         side[i] = ahead > 0;
     }
     one.weights = std::move(fit.weights), one.bias = float(fit.bias);
@@ -267,18 +269,25 @@ inline void fit_template(BoxTemplate& one, const TemplateExamples& examples, std
 
 }  // namespace detail
 
+/// @brief The template of each class, and of each image the boxes that they took for objects when it was last
+/// searched for negatives, the likeliest first.
+struct FittedTemplates {
+    std::vector<BoxTemplate> templates;
+    std::vector<std::vector<Box>> taken;
+};
+
 /// @brief Fits a template of each class to the boxes of its objects: a linear support vector machine over the
 /// cells, for objects that look left or right (which is latent), with what it takes for objects wrongly on
 /// the training images as further negatives (Felzenszwalb, Girshick, McAllester and Ramanan 2010).
-/// @return by class; the same for any number of threads
+/// @return the same for any number of threads
 /// @throws Error where a class has no object, or an option is out of range.
-[[nodiscard]] inline std::vector<BoxTemplate> fit_box_templates(std::span<const TemplateImage> images,
-                                                                std::size_t classes,
-                                                                const TemplateOptions& options = {},
-                                                                unsigned threads = 0,
-                                                                const Progress& progress = {}) {
+[[nodiscard]] inline FittedTemplates fit_box_templates(std::span<const TemplateImage> images,
+                                                       std::size_t classes,
+                                                       const TemplateOptions& options = {},
+                                                       unsigned threads = 0, const Progress& progress = {}) {
     check(options);
-    std::vector<BoxTemplate> templates;
+    FittedTemplates fitted{.templates = {}, .taken = std::vector<std::vector<Box>>(images.size())};
+    std::vector<BoxTemplate>& templates = fitted.templates;
     for (std::uint32_t c = 0; c < classes; ++c)
         templates.push_back(detail::blank_template(images, c, options.cells));
     // so that the rows of all classes stay below a gigabyte
@@ -299,15 +308,21 @@ inline void fit_template(BoxTemplate& one, const TemplateExamples& examples, std
             HogPyramid& pyramid = pyramids[worker];
             pyramid.assign(images[i].color, finest_level(detail::all_boxes(images[i])), pool);
             Random random(i + 1 + std::size_t(round) * images.size());
+            std::vector<SearchedBox> taken;
             for (std::uint32_t c = 0; c < classes; ++c) {
-                if (round == 0)
+                if (round == 0) {
                     found[i].push_back(detail::first_examples(images[i], pyramid, c, templates[c].grid,
                                                               options.jittered_copies, of_image, random));
-                else
-                    found[i].push_back({.negative = detail::mined_negatives(
-                                            images[i], pyramid, c, scorers[c],
-                                            std::min<std::size_t>(6, of_image), pool, random)});
+                } else {
+                    detail::MinedBoxes mined = detail::mined_boxes(
+                        images[i], pyramid, c, scorers[c], std::min<std::size_t>(6, of_image), pool, random);
+                    taken.insert(taken.end(), mined.boxes.begin(), mined.boxes.end());
+                    found[i].push_back({.negative = std::move(mined.negative)});
+                }
             }
+            detail::sort_by(taken, [](const SearchedBox& box) { return detail::falling(box.score); });
+            fitted.taken[i].clear();
+            for (const SearchedBox& box : taken) fitted.taken[i].push_back(box.box);
             counter.step();
         });
         pyramids.clear();
@@ -319,7 +334,7 @@ inline void fit_template(BoxTemplate& one, const TemplateExamples& examples, std
             detail::fit_template(templates[c], examples[c], sides[c], options.cost);
         });
     }
-    return templates;
+    return fitted;
 }
 
 }  // namespace ism

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "ism/core/error.hpp"
@@ -13,6 +14,8 @@
 #include "ism/train/cross_judge.hpp"
 #include "ism/train/fit_box_templates.hpp"
 #include "ism/train/fit_calibration.hpp"
+#include "ism/train/fit_patch_classifier.hpp"
+#include "ism/train/fit_patch_mixture.hpp"
 #include "ism/train/mean_figures.hpp"
 #include "ism/train/training_boxes.hpp"
 #include "ism/train/training_features.hpp"
@@ -67,10 +70,13 @@ namespace detail {
     TemplateOptions quick = options;
     quick.mining_rounds = std::min(quick.mining_rounds, 1);
     model.figures = mean_figures(model.shapes);
-    const auto judged = detail::cross_judged(images, model, quick, threads, progress);
+    const PatchMixture mixture = fit_patch_mixture(detail::sampled_patches(images, threads));
+    const auto judged = detail::cross_judged(images, model, mixture, quick, threads, progress);
     model.cue_weights = detail::fit_cue_weights(judged, classes);
     model.template_calibration = detail::calibrated(judged, model.cue_weights, classes);
-    model.templates = fit_box_templates(images, classes, options, threads, progress);
+    FittedTemplates fitted = fit_box_templates(images, classes, options, threads, progress);
+    model.templates = std::move(fitted.templates);
+    model.patch_classifier = fit_patch_classifier(images, fitted.taken, mixture, classes, threads);
     return model;
 }
 

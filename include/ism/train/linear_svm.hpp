@@ -23,6 +23,14 @@ struct LinearClassifier {
     double bias = 0;
 };
 
+/// @brief Where the `dimension` numbers of each example begin that lie one after another.
+[[nodiscard]] inline std::vector<const float*> row_starts(std::span<const float> rows,
+                                                          std::size_t dimension) {
+    std::vector<const float*> starts;
+    for (std::size_t k = 0; k < rows.size(); k += dimension) starts.push_back(rows.data() + k);
+    return starts;
+}
+
 /// @brief How a linear support vector machine is fitted.
 struct LinearSvmOptions {
     double cost = 0.05;        ///< C: what an example costs that lies within the margin
@@ -34,27 +42,27 @@ struct LinearSvmOptions {
 
 /// @brief Fits a linear support vector machine with squared hinge loss by dual coordinate descent (Hsieh,
 /// Chang, Lin, Keerthi and Sundararajan 2008, algorithm 1 with shrinking).
-/// @param rows      `dimension` numbers an example
+/// @param rows      of each example where its `dimension` numbers begin, see row_starts()
 /// @param positive  of each row
-[[nodiscard]] inline LinearClassifier fit_linear_svm(std::span<const float> rows, std::size_t dimension,
+[[nodiscard]] inline LinearClassifier fit_linear_svm(std::span<const float* const> rows,
+                                                     std::size_t dimension,
                                                      std::span<const std::uint8_t> positive,
                                                      const LinearSvmOptions& options = {}) {
     const std::size_t count = positive.size();
     const auto dot = [&](const float* a, const float* b) {
         std::array<float, 16> sums{};
-        std::size_t k = 0;
-        for (; k + 16 <= dimension; k += 16)
+        const std::size_t whole = dimension / 16 * 16;
+        for (std::size_t k = 0; k < whole; k += 16)
             for (std::size_t l = 0; l < 16; ++l) sums[l] += a[k + l] * b[k + l];
         double sum = 0;
         for (const float s : sums) sum += s;
-        for (; k < dimension; ++k) sum += a[k] * b[k];
+        for (std::size_t k = whole; k < dimension; ++k) sum += a[k] * b[k];
         return sum;
     };
     std::vector<double> alpha(count, 0), diagonal(count), softness(count);
     for (std::size_t i = 0; i < count; ++i) {
         softness[i] = 0.5 / (options.cost * (positive[i] ? options.positive_cost : 1));
-        diagonal[i] = dot(&rows[i * dimension], &rows[i * dimension]) +
-                      options.bias_scale * options.bias_scale + softness[i];
+        diagonal[i] = dot(rows[i], rows[i]) + options.bias_scale * options.bias_scale + softness[i];
     }
     LinearClassifier fit{.weights = std::vector<float>(dimension, 0)};
     double bias_weight = 0;
@@ -73,7 +81,7 @@ struct LinearSvmOptions {
         for (std::size_t s = 0; s < active; ++s) {
             const std::uint32_t i = order[s];
             const double sign = positive[i] ? 1 : -1;
-            const float* x = &rows[i * dimension];
+            const float* x = rows[i];
             const double gradient = sign * (dot(fit.weights.data(), x) + bias_weight * options.bias_scale) -
                                     1 + softness[i] * alpha[i];
             double projected = gradient;
