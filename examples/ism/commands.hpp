@@ -54,7 +54,7 @@ struct PageOptions {
 };
 
 /// What is less probable is not told where templates judge: a place without objects shall look empty.
-constexpr double default_min_score = 0.3;
+constexpr double default_min_score = 0.2;
 
 /// How objects are searched for, whatever the vote space.
 struct SearchOptions {

@@ -19,7 +19,7 @@ says "category ids    10, 20, 30, 40" info.txt
 # A line an object on standard output, twelve fields; how long it took elsewhere.
 "${detect[@]}" photos/0.png photos/1.png >lines.txt 2>timing.txt
 (($(wc -l <lines.txt) > 1)) || fail "expected objects, got: $(cat lines.txt)"
-awk -F '\t' 'NF != 12 || $1 !~ /^photos\/[01]\.png$/ || $2 !~ /^(car|mug|duck|robot)$/ || $3 < .3 || $3 > 1 ||
+awk -F '\t' 'NF != 12 || $1 !~ /^photos\/[01]\.png$/ || $2 !~ /^(car|mug|duck|robot)$/ || $3 < .2 || $3 > 1 ||
              $4 < 0 || $5 < 0 || $4 + $6 > 320.05 || $5 + $7 > 240.05 || $8 != "-" || $9 != "-" {print; bad = 1} END {exit bad}' lines.txt ||
     fail "lines: $(cat lines.txt)"
 grep -qE "^$(wc -l <lines.txt) objects in 2 images, .* ms an image" timing.txt || fail "timing: $(cat timing.txt)"
