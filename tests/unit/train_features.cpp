@@ -215,10 +215,11 @@ TEST_CASE("wrong training options are refused by name") {
     for (const double bad : {-1.0, std::nan("")}) {
         refuses({.selection = {.min_information_gain = bad}}, "WordSelection::min_information_gain");
         refuses({.box_classifier = ism::BoxClassifierOptions{.regularisation = bad}}, "regularisation");
+        refuses({.box_classifier = ism::BoxClassifierOptions{.tolerance = bad}}, "tolerance");
         refuses({.box_classifier = ism::BoxClassifierOptions{.same_iou = bad}}, "same_iou");
         refuses({.box_classifier = ism::BoxClassifierOptions{.other_iou = bad}}, "other_iou");
     }
-    refuses({.box_classifier = ism::BoxClassifierOptions{.iterations = -1}}, "iterations");
+    refuses({.box_classifier = ism::BoxClassifierOptions{.max_rounds = -1}}, "max_rounds");
     refuses({.features = {.max_features = 0}}, "TrainingFeatureOptions::max_features");
     ism::TrainOptions enough;
     enough.selection.min_information_gain = 100;

@@ -14,6 +14,7 @@
 
 #include "ism/core/error.hpp"
 #include "ism/core/grouped.hpp"
+#include "ism/core/random.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/model/box_classifier.hpp"
 #include "ism/train/train_options.hpp"
@@ -63,18 +64,6 @@ struct DesignMatrix {
     return matrix;
 }
 
-/// The rows of a matrix by column: index = row.
-[[nodiscard]] inline Grouped<SparseEntry> transposed(const Grouped<SparseEntry>& rows, std::size_t columns) {
-    std::vector<std::uint32_t> offsets(columns + 1, 0);
-    for (const SparseEntry& entry : rows.values()) ++offsets[entry.index + 1];
-    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
-    std::vector<SparseEntry> entries(rows.values().size());
-    for (std::uint32_t row = 0; row < rows.size(); ++row)
-        for (const SparseEntry& entry : rows[row]) entries[next[entry.index]++] = {row, entry.value};
-    return {std::move(entries), std::move(offsets)};
-}
-
 /// By four sums, since each addition waits for the last.
 [[nodiscard]] inline double dot(std::span<const SparseEntry> sparse, std::span<const double> numbers) {
     double sums[4] = {};
@@ -86,37 +75,54 @@ struct DesignMatrix {
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// Logistic regression by AdaGrad (Duchi et al. 2011); positives and negatives weigh alike.
-/// @return the weights of the columns, and the bias after them; the same for any number of threads
+/// The log odds t at which t + curvature · p(t) = target, p the logistic function: by Newton's method between
+/// two bounds.
+[[nodiscard]] inline double solve_log_odds(double curvature, double target, double t) {
+    double lower = target - curvature, upper = target;
+    t = std::clamp(t, lower, upper);
+    for (int step = 0; step < 50; ++step) {
+        const double p = 1 / (1 + std::exp(-t)), error = t + curvature * p - target;
+        if (std::abs(error) < 1e-6) break;
+        (error > 0 ? upper : lower) = t;
+        t -= error / (1 + curvature * p * (1 - p));
+        if (!(t > lower && t < upper)) t = (lower + upper) / 2;
+    }
+    return t;
+}
+
+/// Logistic regression by dual coordinate descent (Yu, Huang and Lin 2011); positives and negatives weigh
+/// alike. The bias is the weight of a column of ones.
+/// @return the weights of the columns, and the bias after them
 [[nodiscard]] inline std::vector<double> fit_logistic(const DesignMatrix& matrix,
-                                                      const BoxClassifierOptions& options, ThreadPool& pool) {
+                                                      const BoxClassifierOptions& options) {
     const std::size_t columns = matrix.bins.size(), rows = matrix.rows.size();
     const auto positives = std::size_t(std::count(matrix.positive.begin(), matrix.positive.end(), true));
-    const double positive_weight = 0.5 / double(std::max<std::size_t>(1, positives));
-    const double negative_weight = 0.5 / double(std::max<std::size_t>(1, rows - positives));
-    const Grouped<SparseEntry> by_column = transposed(matrix.rows, columns);
-    std::vector<double> weight(columns + 1, 0), sq_slopes(columns + 1, 1e-8), error(rows);
-    const auto descend = [&](std::size_t b, double slope) {
-        constexpr double rate = 0.3;
-        sq_slopes[b] += slope * slope;
-        weight[b] -= rate * slope / std::sqrt(sq_slopes[b]);
-    };
-    const auto each = [&](std::size_t count, const auto& body) {
-        constexpr std::size_t block = 256;
-        pool.for_each((count + block - 1) / block, [&](std::size_t k, unsigned) {
-            for (std::size_t i = k * block; i < std::min(count, (k + 1) * block); ++i) body(i);
-        });
-    };
-    for (int step = 0; step < options.iterations; ++step) {
-        each(rows, [&](std::size_t i) {
-            const bool positive = matrix.positive[i];
-            const double predicted = 1 / (1 + std::exp(-weight[columns] - dot(matrix.rows[i], weight)));
-            error[i] = (predicted - double(positive)) * (positive ? positive_weight : negative_weight);
-        });
-        each(columns, [&](std::size_t b) {
-            descend(b, options.regularisation * weight[b] + dot(by_column[b], error));
-        });
-        descend(columns, std::accumulate(error.begin(), error.end(), 0.0));
+    // Of each row: what it costs, and the log odds that it shows what it does not; the weights are the sum of
+    // all rows, each times its sign, its cost and the probability of the wrong.
+    std::vector<double> weight(columns + 1, 0), cost(rows), sq_length(rows, 1), wrong(rows, -1e9);
+    for (std::size_t i = 0; i < rows; ++i) {
+        cost[i] = 0.5 / (options.regularisation * double(matrix.positive[i] ? positives : rows - positives));
+        for (const SparseEntry& entry : matrix.rows[i])
+            sq_length[i] += double(entry.value) * double(entry.value);
+    }
+    std::vector<std::uint32_t> order(rows);
+    std::iota(order.begin(), order.end(), 0u);
+    Random random(1);
+    double most_change = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < options.max_rounds && most_change > options.tolerance; ++round) {
+        most_change = 0;
+        for (std::size_t k = rows; k > 1; --k) std::swap(order[k - 1], order[random.index(k)]);
+        for (const std::uint32_t i : order) {
+            const double sign = matrix.positive[i] ? 1 : -1, before = 1 / (1 + std::exp(-wrong[i])),
+                         curvature = cost[i] * sq_length[i];
+            const double margin = sign * (dot(matrix.rows[i], weight) + weight[columns]);
+            wrong[i] = solve_log_odds(curvature, curvature * before - margin, wrong[i]);
+            const double change = 1 / (1 + std::exp(-wrong[i])) - before;
+            most_change = std::max(most_change, std::abs(change));
+            for (const SparseEntry& entry : matrix.rows[i])
+                weight[entry.index] += sign * cost[i] * change * double(entry.value);
+            weight[columns] += sign * cost[i] * change;
+        }
     }
     return weight;
 }
@@ -148,16 +154,17 @@ struct DesignMatrix {
             used.push_back(&far.back());
         }
     }
-    ThreadPool pool(threads);
-    BoxClassifier classifier;
-    for (std::size_t c = 0; c < classes; ++c) {
+    std::vector<std::vector<SparseEntry>> weights(classes);
+    std::vector<float> bias(classes);
+    parallel_for(classes, threads, [&](std::size_t c) {
         const detail::DesignMatrix matrix = detail::design_matrix(used, words, c, options.max_others);
-        const std::vector<double> fitted = detail::fit_logistic(matrix, options, pool);
-        std::vector<SparseEntry> weights;
+        const std::vector<double> fitted = detail::fit_logistic(matrix, options);
         for (std::size_t b = 0; b < matrix.bins.size(); ++b)
-            weights.push_back({matrix.bins[b], static_cast<float>(fitted[b])});
-        classifier.push_back(weights, static_cast<float>(fitted.back()));
-    }
+            weights[c].push_back({matrix.bins[b], static_cast<float>(fitted[b])});
+        bias[c] = static_cast<float>(fitted.back());
+    });
+    BoxClassifier classifier;
+    for (std::size_t c = 0; c < classes; ++c) classifier.push_back(weights[c], bias[c]);
     return classifier;
 }
 

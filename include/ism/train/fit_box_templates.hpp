@@ -213,13 +213,13 @@ private:
     return examples;
 }
 
-/// What a template takes for objects of its class where detection would look for one: the boxes, and the
-/// cells of those that it takes for one wrongly.
+/// Boxes that a template takes for objects of its class, the best first.
 struct MinedBoxes {
     std::vector<SearchedBox> boxes = {};
-    std::vector<float> negative = {};
+    std::vector<float> negative = {};  ///< the cells of those that show none
 };
 
+/// Lets a template look for its class where detection would.
 [[nodiscard]] inline MinedBoxes mined_boxes(const TemplateImage& image, const HogPyramid& pyramid,
                                             std::uint32_t class_index, const TemplateScorer& scorer,
                                             std::size_t max_negatives, ThreadPool& pool, Random& random) {

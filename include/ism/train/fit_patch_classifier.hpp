@@ -64,15 +64,10 @@ namespace detail {
     return patches;
 }
 
-/// The Fisher vectors of an image's boxes, one row a box, and with which objects each overlaps how far.
+/// The Fisher vectors of an image's boxes, one after another, and how far each box overlaps objects.
 struct PatchRows {
     std::vector<float> rows = {};
     std::vector<std::vector<float>> overlaps = {};  ///< of each row, by class: the greatest IoU
-
-    void append(const PatchRows& other) {
-        rows.insert(rows.end(), other.rows.begin(), other.rows.end());
-        overlaps.insert(overlaps.end(), other.overlaps.begin(), other.overlaps.end());
-    }
 };
 
 /// Objects on both sides, with copies that are a little off, and other boxes on one side.
@@ -107,16 +102,17 @@ struct PatchRows {
 
 /// Those that show the class against those that do not; what overlaps an object in part is left out.
 inline void fit_patch_weights(PatchClassifier& classifier, std::uint32_t class_index,
-                              const PatchRows& examples) {
+                              std::span<const PatchRows> of_images) {
     constexpr double same_iou = 0.7, other_iou = 0.35;
     std::vector<const float*> rows;
     std::vector<std::uint8_t> positive;
-    for (std::size_t i = 0; i < examples.overlaps.size(); ++i) {
-        const double overlap = double(examples.overlaps[i][class_index]);
-        if (overlap >= other_iou && overlap < same_iou) continue;
-        rows.push_back(&examples.rows[i * PatchMixture::vector_numbers]);
-        positive.push_back(overlap >= same_iou);
-    }
+    for (const PatchRows& image : of_images)
+        for (std::size_t i = 0; i < image.overlaps.size(); ++i) {
+            const double overlap = double(image.overlaps[i][class_index]);
+            if (overlap >= other_iou && overlap < same_iou) continue;
+            rows.push_back(&image.rows[i * PatchMixture::vector_numbers]);
+            positive.push_back(overlap >= same_iou);
+        }
     const auto positives = double(std::count(positive.begin(), positive.end(), std::uint8_t(1))),
                negatives = std::max(1.0, double(positive.size()) - positives);
     // both kinds cost alike together
@@ -147,7 +143,7 @@ inline void fit_patch_weights(PatchClassifier& classifier, std::uint32_t class_i
                                .weights = std::vector<std::vector<float>>(classes),
                                .bias = std::vector<float>(classes)};
     const FisherEncoder encoder(classifier.mixture);
-    std::vector<detail::PatchRows> found(images.size());
+    std::vector<detail::PatchRows> examples(images.size());
     ThreadPool workers(threads);
     std::vector<HogPyramid> pyramids(workers.size());  // large: their memory is used again
     workers.for_each(images.size(), [&](std::size_t i, unsigned worker) {
@@ -158,12 +154,10 @@ inline void fit_patch_weights(PatchClassifier& classifier, std::uint32_t class_i
         ThreadPool pool(1);
         pyramids[worker].assign(images[i].color, finest_level(all), pool);
         Random random(i + 1);
-        found[i] = detail::patch_rows(images[i], others, encoder, pyramids[worker], classes, copies, random);
+        examples[i] =
+            detail::patch_rows(images[i], others, encoder, pyramids[worker], classes, copies, random);
     });
     pyramids.clear();
-    detail::PatchRows examples;
-    for (const detail::PatchRows& part : found) examples.append(part);
-    found.clear();
     workers.for_each(classes, [&](std::size_t c, unsigned) {
         detail::fit_patch_weights(classifier, std::uint32_t(c), examples);
     });

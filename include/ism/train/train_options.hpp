@@ -56,7 +56,8 @@ struct WordSelection {
 /// own objects cast no votes.
 struct BoxClassifierOptions {
     double regularisation = 3e-4;       ///< of the squared weights
-    int iterations = 200;               ///< steps of gradient descent
+    double tolerance = 0.01;            ///< of the probabilities, for an end
+    int max_rounds = 100;               ///< over all boxes
     std::size_t max_hypotheses = 5000;  ///< of all images together, at least 3 an image
     std::size_t max_others = 100;       ///< boxes of other classes that a class also learns from
     double same_iou = 0.5;              ///< a hypothesis that overlaps an object so far shows it
@@ -86,9 +87,10 @@ inline void check(const CodebookOptions& options) {
 /// @brief Validates options.
 /// @throws Error for one out of range.
 inline void check(const BoxClassifierOptions& options) {
-    expect(options.regularisation >= 0 && options.regularisation <= 1e6,
-           "BoxClassifierOptions::regularisation", "0 ... 1e6", options.regularisation);
-    expect(options.iterations >= 0, "BoxClassifierOptions::iterations", "0 or more", options.iterations);
+    expect(options.regularisation > 0 && options.regularisation <= 1e6,
+           "BoxClassifierOptions::regularisation", "above 0, at most 1e6", options.regularisation);
+    expect(options.tolerance >= 0, "BoxClassifierOptions::tolerance", "0 or more", options.tolerance);
+    expect(options.max_rounds >= 0, "BoxClassifierOptions::max_rounds", "0 or more", options.max_rounds);
     expect(options.same_iou > 0 && options.same_iou <= 1, "BoxClassifierOptions::same_iou",
            "above 0, at most 1", options.same_iou);
     expect(options.other_iou >= 0 && options.other_iou <= options.same_iou, "BoxClassifierOptions::other_iou",
