@@ -46,15 +46,6 @@ target_link_libraries(ism_toys PUBLIC ism_dev_options PRIVATE ism_stb)
 target_compile_options(ism_toys PRIVATE $<$<CONFIG:Release>:-O2>)
 set_target_properties(ism_toys PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 7)
 
-# Headers that the program's sources share, read once. gcc takes the optimisation level from what is precompiled,
-# so this is for targets with ism_quick_options alone.
-add_library(ism_precompiled OBJECT EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/tests/support/control.cpp")
-target_link_libraries(ism_precompiled PRIVATE ism_quick_options)
-target_precompile_headers(ism_precompiled PRIVATE <algorithm> <array> <filesystem> <functional> <memory> <span> <string> <vector>)
-if(TARGET nlohmann_json::nlohmann_json)
-    target_precompile_headers(ism_precompiled PRIVATE <nlohmann/json.hpp>)
-endif()
-
 # Catch2, version 2.13 or 3, and our own main: Debian's prebuilt main lacks the benchmark half.
 function(ism_find_catch2)
     if(NOT TARGET Catch2::Catch2)

@@ -29,7 +29,7 @@ struct InfoMessage1 {  // of ROS 1
 static_assert(ism::RosImage<ImageMessage> && !ism::RosImage<InfoMessage2>);
 static_assert(ism::RosCameraInfo<InfoMessage1> && ism::RosCameraInfo<InfoMessage2>);
 
-constexpr std::array<double, 9> k{525, 0, 319.5, 0, 526, 239.5, 0, 0, 1};
+constexpr std::array<double, 9> intrinsics{525, 0, 319.5, 0, 526, 239.5, 0, 0, 1};
 
 ImageMessage picture(const std::string& encoding, std::uint32_t width, std::vector<std::uint8_t> row) {
     const auto step = std::uint32_t(row.size());
@@ -49,16 +49,16 @@ TEST_CASE("image messages in each encoding") {
 TEST_CASE("an image message with depth and camera") {
     const ImageMessage color = picture("rgb8", 2, {1, 2, 3, 4, 5, 6});
     ImageMessage units = picture("16UC1", 2, {0xe8, 0x03, 0, 0});  // 1000 mm
-    const ism::Frame frame = ism::to_frame(color, units, InfoMessage2{480, 640, k});
+    const ism::Frame frame = ism::to_frame(color, units, InfoMessage2{480, 640, intrinsics});
     CHECK((frame.depth_m(0, 0) == 1.0f && frame.depth_m(1, 0) == 0));
     CHECK(frame.camera == ism::Camera{525, 526, 319.5, 239.5});
-    CHECK(ism::to_camera(InfoMessage1{k}) == *frame.camera);
+    CHECK(ism::to_camera(InfoMessage1{intrinsics}) == *frame.camera);
 
     units.data = {0x03, 0xe8, 0, 0}, units.is_bigendian = 1;
-    CHECK(ism::to_frame(color, units, InfoMessage1{k}).depth_m(0, 0) == 1.0f);
+    CHECK(ism::to_frame(color, units, InfoMessage1{intrinsics}).depth_m(0, 0) == 1.0f);
 
     const ImageMessage metres = picture("32FC1", 2, {0, 0, 0, 0x40, 0, 0, 0, 0});  // 2 m
-    CHECK(ism::to_frame(color, metres, InfoMessage1{k}).depth_m(0, 0) == 2);
+    CHECK(ism::to_frame(color, metres, InfoMessage1{intrinsics}).depth_m(0, 0) == 2);
 }
 
 TEST_CASE("messages that contradict themselves are refused") {
@@ -75,6 +75,6 @@ TEST_CASE("messages that contradict themselves are refused") {
     CHECK_THROWS_AS(ism::to_frame(ImageMessage{0, 0, "mono8", 0, 0, {}}), ism::Error);
     CHECK_THROWS_WITH(ism::to_camera(InfoMessage2{}), Catch::Contains("focal lengths"));
     CHECK_THROWS_WITH(
-        ism::to_frame(picture("mono8", 2, {1, 2}), picture("mono8", 2, {1, 2}), InfoMessage1{k}),
+        ism::to_frame(picture("mono8", 2, {1, 2}), picture("mono8", 2, {1, 2}), InfoMessage1{intrinsics}),
         Catch::Contains("one channel of 16 bits or floats"));
 }

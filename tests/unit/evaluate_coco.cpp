@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "support/catch.hpp"
+#include "support/painted.hpp"
 
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/table.hpp"
@@ -12,17 +13,12 @@
 #error "files are measured against files without a library for images"
 #endif
 
+using ism::test::rectangle;
+
 namespace {
 
-ism::Mask rectangle(int x0, int y0, int width, int height) {
-    ism::Mask mask(30, 20);
-    for (int y = y0; y < y0 + height; ++y)
-        for (int x = x0; x < x0 + width; ++x) mask(x, y) = 1;
-    return mask;
-}
-
 // two images of 30×20; the numbers of images and categories are neither in order nor dense
-ism::Dataset small_set() {
+ism::Dataset two_images() {
     ism::Dataset set;
     set.source = "small.json";
     set.class_names = {"cup", "bowl"};
@@ -76,7 +72,7 @@ TEST_CASE("Results are measured against a data set by its own numbers, with mask
                                      result_of(90, 3, {14, 2, 5, 5}, 0.95),  // in the crowd
                                      result_of(4, 7, {5, 5, 10, 10}, 0.5)};
     results[0].segmentation = ism::compress_mask(rectangle(0, 0, 10, 9));
-    const ism::Evaluation evaluation = ism::evaluate(small_set(), results);
+    const ism::Evaluation evaluation = ism::evaluate(two_images(), results);
     REQUIRE(evaluation.classes.size() == 2);
     CHECK(evaluation.classes[0].name == "cup");
     CHECK(evaluation.classes[0].figures.ap == 1);
@@ -86,15 +82,15 @@ TEST_CASE("Results are measured against a data set by its own numbers, with mask
     CHECK(evaluation.classes[1].detections == 1);
     CHECK(std::isnan(evaluation.classes[1].figures.mask_iou));
 
-    const ism::Evaluation strict = ism::evaluate(small_set(), results, {.iou_threshold = 0.95});
+    const ism::Evaluation strict = ism::evaluate(two_images(), results, {.iou_threshold = 0.95});
     CHECK(strict.classes[0].figures.ap == 0);
     const ism::Evaluation uiuc =
-        ism::evaluate(small_set(), results, {.rule = ism::EvaluateOptions::Rule::uiuc});
+        ism::evaluate(two_images(), results, {.rule = ism::EvaluateOptions::Rule::uiuc});
     CHECK(uiuc.classes[0].figures.ap == 1);
 }
 
 TEST_CASE("Results with numbers or masks that the data set does not know are refused by name") {
-    const ism::Dataset set = small_set();
+    const ism::Dataset set = two_images();
     const std::vector<ism::Result> good{result_of(90, 7, {0, 0, 10, 9}, 0.9)};
     CHECK(message_of(set, good).empty());
 
@@ -113,7 +109,7 @@ TEST_CASE("Results with numbers or masks that the data set does not know are ref
 }
 
 TEST_CASE("An evaluation as JSON keeps the order of classes and writes null for what was not measured") {
-    const auto json = nlohmann::ordered_json::parse(ism::to_json(ism::evaluate(small_set(), {})));
+    const auto json = nlohmann::ordered_json::parse(ism::to_json(ism::evaluate(two_images(), {})));
     CHECK(json["classes"].begin().key() == "cup");
     CHECK(json["classes"]["cup"]["ap"] == 0.0);
     CHECK(json["classes"]["cup"]["mask_iou"].is_null());
@@ -121,7 +117,7 @@ TEST_CASE("An evaluation as JSON keeps the order of classes and writes null for 
     CHECK(json["mean"]["eer"] == 0.0);
     CHECK(json["accuracy"].is_null());
 
-    ism::Dataset one_each = small_set();
+    ism::Dataset one_each = two_images();
     one_each.images[0].objects.resize(1);
     const std::vector<ism::Result> results{result_of(4, 3, {5, 5, 10, 10}, 0.8)};
     const auto with_accuracy = nlohmann::json::parse(ism::to_json(ism::evaluate(one_each, results)));
@@ -216,7 +212,7 @@ TEST_CASE("By COCO's rule a class without objects is not part of the mean") {
 }
 
 TEST_CASE("Results are measured by COCO's rule in the order of the images' numbers") {
-    ism::Dataset set = small_set();
+    ism::Dataset set = two_images();
     set.images[0].objects[1].class_index = 0;  // the crowd is one of cups
     // image 4 comes before image 90, whichever stands first in the files
     const std::vector<ism::Result> results{result_of(90, 7, {0, 0, 10, 10}, 0.5),

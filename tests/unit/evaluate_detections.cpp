@@ -5,20 +5,15 @@
 
 #include "support/catch.hpp"
 #include "support/files.hpp"
+#include "support/painted.hpp"
 
 #include "ism/dataset/to_results.hpp"
 #include "ism/evaluate/detections.hpp"
 
 using ism::test::error_message;
+using ism::test::rectangle;
 
 namespace {
-
-ism::Mask rectangle(int x0, int y0, int width, int height) {
-    ism::Mask mask(30, 20);
-    for (int y = y0; y < y0 + height; ++y)
-        for (int x = x0; x < x0 + width; ++x) mask(x, y) = 1;
-    return mask;
-}
 
 // Two images of 30×20 with a cup, and a bowl in the second whose mask nobody knows.
 ism::Dataset small_set() {

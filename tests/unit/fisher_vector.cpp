@@ -170,7 +170,7 @@ TEST_CASE("eigenvectors of a symmetric matrix, that of most variance first") {
     CHECK(ism::detail::eigenvectors({1, 0, 0, 2}, 2) == std::vector<double>{0, 1, 1, 0});
 }
 
-TEST_CASE("a mixture explains patches better than one Gaussian, and each of its groups") {
+TEST_CASE("each group of patches gets Gaussians of its own") {
     // three groups of patches, one of them twice as often as each other
     ism::Random random(3);
     std::vector<std::vector<float>> centres;

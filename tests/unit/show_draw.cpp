@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "support/catch.hpp"
+#include "support/painted.hpp"
 
 #include "ism/core/random.hpp"
 #include "ism/show/draw.hpp"
@@ -18,6 +19,7 @@
 using ism::Point2;
 using ism::Rgb;
 using ism::RgbImage;
+using ism::test::painted;
 
 namespace {
 
@@ -26,11 +28,6 @@ double ink(const RgbImage& image) {
     double sum = 0;
     for (const Rgb c : image.pixels()) sum += c.r / 255.0;
     return sum;
-}
-
-std::size_t painted(const RgbImage& image) {
-    return std::size_t(
-        std::count_if(image.pixels().begin(), image.pixels().end(), [](Rgb c) { return c != Rgb{}; }));
 }
 
 }  // namespace

@@ -8,12 +8,14 @@
 
 #include "support/catch.hpp"
 #include "support/files.hpp"
+#include "support/painted.hpp"
 #include "support/skipped.hpp"
 
 #include "ism/show/font.hpp"
 
 using ism::Rgb;
 using ism::RgbImage;
+using ism::test::painted;
 
 namespace {
 
@@ -25,11 +27,6 @@ const ism::Font& some_font() {
         WARN("skipped: no font (scripts/install_dependencies pages)");
     }
     return font;
-}
-
-std::size_t painted(const RgbImage& image) {
-    return std::size_t(std::count_if(image.pixels().begin(), image.pixels().end(),
-                                     [](const Rgb& pixel) { return !(pixel == Rgb{}); }));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ using ism::test::pattern_picture;
 
 namespace {
 
-const std::vector<std::string> names{"first", "second"};
+const std::vector<std::string> figure_names{"first", "second"};
 
 /// Objects of which each shows the same 20 features of its class, turned by an angle (made up).
 ism::TrainingFeatures objects_turned_by(const std::vector<double>& angles) {
@@ -87,21 +87,21 @@ TEST_CASE("objects that are turned at random are found however they are turned")
     };
     using Extractor = ism::Extractor<ism::HessianLaplace, ism::RootSift>;
     const auto upright = pictures(0), turned = pictures(1.7);
-    CHECK(ism::shared_features(names, ism::training_set(upright), {Extractor{}}).one_side_up());
-    const auto shared = ism::shared_features(names, ism::training_set(turned), {Extractor{}});
+    CHECK(ism::shared_features(figure_names, ism::training_set(upright), {Extractor{}}).one_side_up());
+    const auto shared = ism::shared_features(figure_names, ism::training_set(turned), {Extractor{}});
     CHECK(shared.count > 50);
     CHECK_FALSE(shared.one_side_up());
 
     // Nothing to be seen, nothing labelled: nothing is known, and upright is what most things are.
     auto blank = pictures(1.7);
     for (auto& image : blank) image.frame.gray = ism::GrayImage(200, 160, 0.5f);
-    CHECK(ism::shared_features(names, ism::training_set(blank), {Extractor{}}).one_side_up());
+    CHECK(ism::shared_features(figure_names, ism::training_set(blank), {Extractor{}}).one_side_up());
     for (auto& image : blank) image.objects.clear();
-    CHECK(ism::shared_features(names, ism::training_set(blank), {Extractor{}}).count == 0);
+    CHECK(ism::shared_features(figure_names, ism::training_set(blank), {Extractor{}}).count == 0);
 
     Extractor oriented;
     oriented.options.oriented = true;
-    const auto model = ism::train(names, ism::training_set(turned), {}, oriented);
+    const auto model = ism::train(figure_names, ism::training_set(turned), {}, oriented);
     for (const std::uint32_t class_index : {0u, 1u})
         for (const double angle : {0.4, 2.5, 4.0}) {
             CAPTURE(class_index, angle);
