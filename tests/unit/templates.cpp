@@ -135,10 +135,10 @@ TEST_CASE("of many classes those with most vote weight at a place are asked") {
 TEST_CASE("cues join templates at the weights that tell right from wrong best") {
     // boxes whose odds of being right are exp(4 · margin of all cues), of two classes that differ in how
     // often they are: the weights are found again
-    const auto learnt = [](const ism::CueWeights& weights) {
+    const auto learnt = [](const ism::CueWeights& weights, int boxes = 2000) {
         ism::Random random(1);
         std::vector<ism::detail::JudgedBox> judged;
-        for (int i = 0; i < 20000; ++i) {
+        for (int i = 0; i < boxes; ++i) {
             ism::detail::JudgedBox box{.class_index = std::uint32_t(i % 2),
                                        .cues = {.margin = random.uniform(-2, 1),
                                                 .word_logit = random.uniform(-4, 2),
@@ -151,7 +151,7 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
         }
         return ism::detail::fit_cue_weights(judged, 2);
     };
-    const ism::CueWeights found = learnt({.patches = 0.6, .words = 0.1, .votes = 0.05, .colors = 1});
+    const ism::CueWeights found = learnt({.patches = 0.6, .words = 0.1, .votes = 0.05, .colors = 1}, 8000);
     CHECK(found.patches == Approx(0.6).margin(0.16));
     CHECK(found.words == Approx(0.1).margin(0.026));
     CHECK(found.votes == Approx(0.05).margin(0.026));

@@ -75,13 +75,16 @@ struct DesignMatrix {
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// The log odds t at which t + curvature · p(t) = target, p the logistic function: by Newton's method between
-/// two bounds.
+[[nodiscard]] inline double logistic(double log_odds) {
+    return 1 / (1 + std::exp(-log_odds));
+}
+
+/// The log odds t at which t + curvature · logistic(t) = target: by Newton's method between two bounds.
 [[nodiscard]] inline double solve_log_odds(double curvature, double target, double t) {
     double lower = target - curvature, upper = target;
     t = std::clamp(t, lower, upper);
     for (int step = 0; step < 50; ++step) {
-        const double p = 1 / (1 + std::exp(-t)), error = t + curvature * p - target;
+        const double p = logistic(t), error = t + curvature * p - target;
         if (std::abs(error) < 1e-6) break;
         (error > 0 ? upper : lower) = t;
         t -= error / (1 + curvature * p * (1 - p));
@@ -97,9 +100,9 @@ struct DesignMatrix {
                                                       const BoxClassifierOptions& options) {
     const std::size_t columns = matrix.bins.size(), rows = matrix.rows.size();
     const auto positives = std::size_t(std::count(matrix.positive.begin(), matrix.positive.end(), true));
-    // Of each row: what it costs, and the log odds that it shows what it does not; the weights are the sum of
-    // all rows, each times its sign, its cost and the probability of the wrong.
-    std::vector<double> weight(columns + 1, 0), cost(rows), sq_length(rows, 1), wrong(rows, -1e9);
+    // The weights are the sum of all rows, each times its sign, its cost and the probability that it is taken
+    // for the other kind, which begins at 0.
+    std::vector<double> weight(columns + 1, 0), cost(rows), sq_length(rows, 1), log_odds(rows, -1e9);
     for (std::size_t i = 0; i < rows; ++i) {
         cost[i] = 0.5 / (options.regularisation * double(matrix.positive[i] ? positives : rows - positives));
         for (const SparseEntry& entry : matrix.rows[i])
@@ -113,11 +116,11 @@ struct DesignMatrix {
         most_change = 0;
         for (std::size_t k = rows; k > 1; --k) std::swap(order[k - 1], order[random.index(k)]);
         for (const std::uint32_t i : order) {
-            const double sign = matrix.positive[i] ? 1 : -1, before = 1 / (1 + std::exp(-wrong[i])),
+            const double sign = matrix.positive[i] ? 1 : -1, before = logistic(log_odds[i]),
                          curvature = cost[i] * sq_length[i];
             const double margin = sign * (dot(matrix.rows[i], weight) + weight[columns]);
-            wrong[i] = solve_log_odds(curvature, curvature * before - margin, wrong[i]);
-            const double change = 1 / (1 + std::exp(-wrong[i])) - before;
+            log_odds[i] = solve_log_odds(curvature, curvature * before - margin, log_odds[i]);
+            const double change = logistic(log_odds[i]) - before;
             most_change = std::max(most_change, std::abs(change));
             for (const SparseEntry& entry : matrix.rows[i])
                 weight[entry.index] += sign * cost[i] * change * double(entry.value);

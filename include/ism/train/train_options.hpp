@@ -87,8 +87,8 @@ inline void check(const CodebookOptions& options) {
 /// @brief Validates options.
 /// @throws Error for one out of range.
 inline void check(const BoxClassifierOptions& options) {
-    expect(options.regularisation > 0 && options.regularisation <= 1e6,
-           "BoxClassifierOptions::regularisation", "above 0, at most 1e6", options.regularisation);
+    expect(options.regularisation >= 1e-12 && options.regularisation <= 1e6,
+           "BoxClassifierOptions::regularisation", "1e-12 ... 1e6", options.regularisation);
     expect(options.tolerance >= 0, "BoxClassifierOptions::tolerance", "0 or more", options.tolerance);
     expect(options.max_rounds >= 0, "BoxClassifierOptions::max_rounds", "0 or more", options.max_rounds);
     expect(options.same_iou > 0 && options.same_iou <= 1, "BoxClassifierOptions::same_iou",
