@@ -191,7 +191,8 @@ void run_demo(const DemoCommand& command) {
     const double train_seconds = train_watch.seconds();
 
     const std::size_t count = set.test.images.size();
-    const OverlayFiles overlays(folder / "overlays", set.test, shapes.class_names);
+    const OverlayFiles overlays(folder / "overlays", set.test);
+    const ism::Font font = overlay_font(shapes.class_names);
     std::vector<SceneOutcome> scenes(count);
     std::vector<std::vector<ism::Result>> told(count);  // what the page shows
     ism::ThreadPool pool(command.threads);
@@ -215,7 +216,7 @@ void run_demo(const DemoCommand& command) {
             scenes[i].results[s] = ism::to_results(found, image, shapes);
             if (space_names[s] != shown_space) continue;
             const ism::Detections shown = find_objects(scene, {.space = search.space});
-            overlays.write(i, ism::read_rgb(image.file), shown, shapes.class_names);
+            overlays.write(i, ism::read_rgb(image.file), shown, shapes.class_names, font);
             told[i] = ism::to_results(shown, image, shapes);
         }
         progress.step("detecting in five vote spaces", count);

@@ -140,18 +140,17 @@ struct Overlays {
 };
 
 void add_overlays(Overlays& overlays, const DetectCommand& command, const DetectInput& input) {
-    const auto& names = input.model.shapes.class_names;
     if (!command.overlay_folder.empty()) {
-        overlays.folder.emplace(command.overlay_folder, input.dataset, names);
+        overlays.folder.emplace(command.overlay_folder, input.dataset);
         make_folder(command.overlay_folder);
     }
-    if (command.show) overlays.font = overlay_font(names);
+    if (command.show || overlays.folder) overlays.font = overlay_font(input.model.shapes.class_names);
 }
 
 void write_overlays(const Overlays& overlays, const DetectInput& input, std::size_t i,
                     const ism::RgbImage& color, const ism::Detections& found) {
     const auto& names = input.model.shapes.class_names;
-    if (overlays.folder) overlays.folder->write(i, color, found, names);
+    if (overlays.folder) overlays.folder->write(i, color, found, names, overlays.font);
     if (!overlays.beside.empty())
         ism::write_png(overlays.beside[std::size_t(input.dataset.images[i].id) - 1],
                        ism::draw_detections(color, found, names, {.font = &overlays.font}));

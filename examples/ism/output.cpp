@@ -37,9 +37,7 @@ ism::Font overlay_font(std::span<const std::string> class_names) {
     return font;
 }
 
-OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset,
-                           std::span<const std::string> class_names)
-    : folder_(std::move(folder)), font_(overlay_font(class_names)) {
+OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset) : folder_(std::move(folder)) {
     std::set<fs::path> inputs;
     for (const ism::DatasetImage& image : dataset.images)
         for (const fs::path& file : {image.file, image.depth_file})
@@ -64,9 +62,9 @@ OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset,
 }
 
 void OverlayFiles::write(std::size_t i, const ism::RgbImage& image, const ism::Detections& detections,
-                         std::span<const std::string> class_names) const {
+                         std::span<const std::string> class_names, const ism::Font& font) const {
     const auto files = files_of(stems_[i]);
-    const ism::OverlayOptions options{.font = &font_};
+    const ism::OverlayOptions options{.font = &font};
     ism::write_png(folder_ / files[0], ism::draw_detections(image, detections, class_names, options));
     for (std::size_t row = 0; row < std::min(rows, detections.objects.size()); ++row)
         ism::write_png(folder_ / files[row + 1],

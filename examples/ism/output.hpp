@@ -26,17 +26,15 @@ public:
     /// Chooses file names in `folder` that are all different: the image's name without its ending, with a
     /// number where that is taken.
     /// @throws ism::FileError where a name is that of an image of the data set.
-    OverlayFiles(std::filesystem::path folder, const ism::Dataset& dataset,
-                 std::span<const std::string> class_names);
+    OverlayFiles(std::filesystem::path folder, const ism::Dataset& dataset);
 
     /// Writes those of image i.
     void write(std::size_t i, const ism::RgbImage& image, const ism::Detections& detections,
-               std::span<const std::string> class_names) const;
+               std::span<const std::string> class_names, const ism::Font& font) const;
 
 private:
     std::filesystem::path folder_;
     std::vector<std::string> stems_;
-    ism::Font font_;
 };
 
 }  // namespace program
