@@ -151,13 +151,13 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
         }
         return ism::detail::fit_cue_weights(judged, 2);
     };
-    const ism::CueWeights found = learnt({.patches = 0.6, .words = 0.1, .votes = 0.05, .colors = 1}, 8000);
+    const ism::CueWeights found = learnt({.patches = 0.6, .words = 0.05, .votes = 0.05, .colors = 1}, 8000);
     CHECK(found.patches == Approx(0.6).margin(0.16));
-    CHECK(found.words == Approx(0.1).margin(0.026));
+    CHECK(found.words == Approx(0.05).margin(0.026));
     CHECK(found.votes == Approx(0.05).margin(0.026));
     CHECK(found.colors == Approx(1).margin(0.26));
     CHECK(learnt({.patches = 3}).patches == Approx(1.2));
-    CHECK(learnt({.words = 0.5}).words == Approx(0.2));
+    CHECK(learnt({.words = 0.5}).words == Approx(0.1));
     CHECK(learnt({.votes = 0.5}).votes == Approx(0.1));
     const ism::CueWeights none = learnt({.patches = -1, .words = -0.5, .votes = -1, .colors = -3});
     CHECK((none.patches == 0 && none.words == 0 && none.votes == 0 && none.colors == 0));

@@ -141,13 +141,12 @@ struct JudgedBox {
 }
 
 /// With what weights the cues tell right from wrong best together, by the likelihood of calibrated scores:
-/// each in its turn in eight steps up to the most that it may be worth. Words no more than .2, and votes no
-/// more than .1, since the codebook has seen both halves, which flatters them. Colours are expected to be
-/// worth about 1.5 ± .35: training images show little but the classes, and tell little of what they are worth
-/// elsewhere.
+/// each in its turn in eight steps up to the most that it may be worth. Words and votes no more than .1,
+/// since the codebook has seen both halves, which flatters them. Colours are expected to be worth about 1.5 ±
+/// .35: training images show little but the classes, and tell little of what they are worth elsewhere.
 [[nodiscard]] inline CueWeights fit_cue_weights(std::span<const JudgedBox> judged, std::size_t classes) {
     constexpr std::pair<double CueWeights::*, double> most[] = {{&CueWeights::patches, 1.2},
-                                                                {&CueWeights::words, 0.2},
+                                                                {&CueWeights::words, 0.1},
                                                                 {&CueWeights::votes, 0.1},
                                                                 {&CueWeights::colors, 3}};
     CueWeights best;

@@ -55,7 +55,7 @@ struct WordSelection {
 /// @brief How the classifier of boxes is fitted, on labelled boxes and on hypotheses in training images whose
 /// own objects cast no votes.
 struct BoxClassifierOptions {
-    double regularisation = 3e-4;       ///< of the squared weights
+    double regularisation = 1e-3;       ///< of the squared weights
     double tolerance = 0.01;            ///< of the probabilities, for an end
     int max_rounds = 100;               ///< over all boxes
     std::size_t max_hypotheses = 5000;  ///< of all images together, at least 3 an image
