@@ -34,10 +34,11 @@ set(CPACK_DEBIAN_ISM_PYTHON_PACKAGE_SECTION "python")
 if(TARGET ism_python)
     set(CPACK_DEBIAN_ISM_PYTHON_PACKAGE_DEPENDS "${ism_python_depends}") # see python/
 endif()
-# What a program is linked to is told by dpkg-shlibdeps, which comes with build-essential.
+# What a program is linked to is told by dpkg-shlibdeps, which comes with build-essential; cpack asks `file` for programs.
 find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
-mark_as_advanced(DPKG_SHLIBDEPS)
-if(DPKG_SHLIBDEPS)
+find_program(FILE_UTILITY file)
+mark_as_advanced(DPKG_SHLIBDEPS FILE_UTILITY)
+if(DPKG_SHLIBDEPS AND FILE_UTILITY)
     set(CPACK_DEBIAN_ISM_PROGRAM_PACKAGE_SHLIBDEPS ON)
     set(CPACK_DEBIAN_ISM_PYTHON_PACKAGE_SHLIBDEPS ON)
 endif()
