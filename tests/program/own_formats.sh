@@ -5,11 +5,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$here/support.bash"
 
 # Photographs with masks as people have them: a folder a class, Pascal VOC, YOLO, labelme. The same is learnt of each.
-data=${ISM_DATA:-$here/../../../shared/data}
-if [[ ! -d $data ]]; then
-    [[ -z ${CI:-} ]] || fail "no data in $data"
-    exit 77
-fi
+need_data
 "$(dirname "$ism")/other_formats" "$data/four-class/train.json" sets 3
 sets=(folders labelme yolo)
 mkdir pictures

@@ -20,6 +20,14 @@ make_toys() {
     fi
 }
 
+# Sets `data` to the folder of the real images. Where they are missing the test is skipped, with CI set it fails.
+need_data() {
+    data=${ISM_DATA:-$here/../../../shared/data}
+    [[ ! -f $data/four-class/train.json ]] || return 0
+    [[ -z ${CI:-} ]] || fail "no data in $data; set ISM_DATA to the folder of the data"
+    exit 77
+}
+
 # refused <text> <command...>: ends with 2, says `text` on stderr, nothing on stdout, and leaves no file out*.
 refused() {
     local text=$1 code=0
