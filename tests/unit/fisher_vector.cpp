@@ -18,6 +18,7 @@
 #include "ism/hog/hog_pyramid.hpp"
 #include "ism/train/fit_patch_classifier.hpp"
 #include "ism/train/fit_patch_mixture.hpp"
+#include "ism/train/pyramid_workers.hpp"
 
 namespace {
 
@@ -218,8 +219,9 @@ TEST_CASE("patches tell classes apart wherever in the box they lie") {
     for (std::uint32_t i = 0; i < 16; ++i)
         images.push_back({.color = pixels[i], .labels = {{i % 2, box}}, .proposals = {{1 - i % 2, box}}});
     const std::vector<std::vector<ism::Box>> taken(images.size(), {other, corner});
-    const auto mixture = ism::fit_patch_mixture(ism::detail::sampled_patches(images, 1));
-    const auto classifier = ism::fit_patch_classifier(images, taken, mixture, 2, 1);
+    ism::PyramidWorkers one(1), two(2);
+    const auto mixture = ism::fit_patch_mixture(ism::detail::sampled_patches(images, one));
+    const auto classifier = ism::fit_patch_classifier(images, taken, mixture, 2, one);
     const ism::FisherEncoder encoder(classifier.mixture);
     ism::CellScratch scratch;
     ism::ThreadPool pool(1);
@@ -230,6 +232,6 @@ TEST_CASE("patches tell classes apart wherever in the box they lie") {
         CHECK(own > classifier.margin(1 - i % 2, vector) + 0.5);
         CHECK(own > classifier.margin(i % 2, encoder.encode(pyramid, corner, scratch)) + 0.5);
     }
-    CHECK(mixture == ism::fit_patch_mixture(ism::detail::sampled_patches(images, 2)));
-    CHECK(classifier == ism::fit_patch_classifier(images, taken, mixture, 2, 2));
+    CHECK(mixture == ism::fit_patch_mixture(ism::detail::sampled_patches(images, two)));
+    CHECK(classifier == ism::fit_patch_classifier(images, taken, mixture, 2, two));
 }

@@ -20,7 +20,7 @@ inline constexpr std::size_t hog_sums = 24;        ///< directions, three means 
 /// four of them give the sum over any rectangle (Viola and Jones 2001; for gradients Porikli 2005).
 struct HogLevel {
     int width = 0, height = 0;  ///< pixels of the level
-    std::vector<float> sums;    ///< (width + 1) · (height + 1) times hog_sums numbers: detail::HogSums
+    std::vector<float> sums;  ///< (width + 1) · (height + 1) times hog_sums numbers, or more: detail::HogSums
 
     [[nodiscard]] const float* at(int x, int y) const {
         return sums.data() + (std::size_t(y) * std::size_t(width + 1) + std::size_t(x)) * hog_sums;
@@ -86,7 +86,8 @@ inline void fill_level(HogLevel& level, const std::vector<float>& rgb, int width
     static constexpr EightFloats behind_last = {18, 1, 2, 3, 4, 5, 6, 7};
     level.width = width, level.height = height;
     const std::size_t row_numbers = std::size_t(width + 1) * hog_sums;
-    level.sums.resize(row_numbers * std::size_t(height + 1));
+    const std::size_t numbers = row_numbers * std::size_t(height + 1);
+    if (level.sums.size() < numbers) level.sums = std::vector<float>(numbers);  // nothing to keep
     std::fill_n(level.sums.begin(), row_numbers, 0.0f);
     HogRow row(width);
     for (int y = 0; y < height; ++y) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -49,9 +50,10 @@ public:
                 images.push_back(resize_area(image, width_, height_, 3, w, h));
             sizes.emplace_back(w, h);
         }
-        levels_.resize(images.size());
+        last_ = first_ + int(images.size()) - 1;
         pool.for_each(images.size(), [&](std::size_t i, unsigned) {
-            detail::fill_level(levels_[i], images[i], sizes[i].first, sizes[i].second);
+            detail::fill_level(levels_[std::size_t(first_ - finest) + i], images[i], sizes[i].first,
+                               sizes[i].second);
         });
     }
 
@@ -60,12 +62,12 @@ public:
     /// @brief The level at which a length of so many pixels is nearest to 8.
     [[nodiscard]] const HogLevel& level_for(double cell_px) const {
         const int wanted = int(std::lround(2 * std::log2(std::max(1e-3, cell_px) / 8)));
-        return levels_[std::size_t(std::clamp(wanted - first_, 0, int(levels_.size()) - 1))];
+        return levels_[std::size_t(std::clamp(wanted, first_, last_) - finest)];
     }
 
 private:
-    int first_ = 0, width_ = 0, height_ = 0;
-    std::vector<HogLevel> levels_;
+    int first_ = 0, last_ = 0, width_ = 0, height_ = 0;
+    std::array<HogLevel, coarsest - finest + 1> levels_;  // those from first_ to last_
 };
 
 }  // namespace ism

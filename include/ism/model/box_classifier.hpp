@@ -95,11 +95,10 @@ public:
         };
         double total = 0;
         for (const Place& place : places_) {
-            const double u = (double(place.x) - box.x) / box.width,
-                         v = (double(place.y) - box.y) / box.height;
-            if (!(u >= 0 && v >= 0 && u < 1 && v < 1)) continue;
+            const double x = double(place.x) - box.x, y = double(place.y) - box.y;
+            if (!(x >= 0 && y >= 0 && x < box.width && y < box.height)) continue;
             count(0, place);
-            count(1 + std::size_t(u >= 0.5) + 2 * std::size_t(v >= 0.5), place);
+            count(1 + std::size_t(x >= box.width / 2) + 2 * std::size_t(y >= box.height / 2), place);
             total += 2 * double(place.weight);
         }
         std::vector<SparseEntry> bins = std::move(cells[0]);

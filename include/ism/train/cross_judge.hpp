@@ -25,6 +25,7 @@
 #include "ism/train/fit_box_templates.hpp"
 #include "ism/train/fit_calibration.hpp"
 #include "ism/train/fit_patch_classifier.hpp"
+#include "ism/train/pyramid_workers.hpp"
 #include "ism/train/training_boxes.hpp"
 
 /// What templates and other cues are worth together, from boxes on images that neither was fitted to.
@@ -83,8 +84,8 @@ struct JudgedBox {
 /// Each half of the images judged by what was fitted to the other; empty where a half lacks a class.
 [[nodiscard]] inline std::vector<JudgedBox> cross_judged(std::span<const TemplateImage> images,
                                                          const Model& model, const PatchMixture& mixture,
-                                                         const TemplateOptions& options, unsigned threads,
-                                                         const Progress& progress) {
+                                                         const TemplateOptions& options,
+                                                         PyramidWorkers& workers, const Progress& progress) {
     const std::size_t classes = model.shapes.class_names.size();
     std::vector<std::size_t> seen(classes + 1, 0);
     std::vector<const TemplateImage*> halves[2];
@@ -94,8 +95,6 @@ struct JudgedBox {
     const BoxClassifierOptions word_options;
     const std::size_t of_image = std::max<std::size_t>(3, word_options.max_hypotheses / 2 / images.size());
     std::vector<JudgedBox> judged;
-    ThreadPool workers(threads);
-    std::vector<HogPyramid> pyramids(workers.size());  // large: their memory is used again
     for (int half = 0; half < 2; ++half) {
         const std::vector<const TemplateImage*>& unknown = halves[half];
         std::vector<TemplateImage> known;
@@ -105,16 +104,16 @@ struct JudgedBox {
         for (const TemplateImage& image : known)
             for (const ObjectLabel& label : image.labels) shown[label.class_index] = true;
         if (std::find(shown.begin(), shown.end(), false) != shown.end()) continue;
-        const FittedTemplates fitted = fit_box_templates(known, classes, options, threads, progress);
-        const PatchClassifier patches = fit_patch_classifier(known, fitted.taken, mixture, classes, threads);
+        const FittedTemplates fitted = fit_box_templates(known, classes, options, workers, progress);
+        const PatchClassifier patches = fit_patch_classifier(known, fitted.taken, mixture, classes, workers);
         BoxClassifier words;
         if (!model.box_classifier.empty())
             words = fit_box_classifier(word_boxes(known, of_image), model.words(), classes, word_options,
-                                       threads);
+                                       workers.pool().size());
         const std::vector<TemplateScorer> scorers(fitted.templates.begin(), fitted.templates.end());
         std::vector<std::vector<JudgedBox>> found(unknown.size());
-        workers.for_each(unknown.size(), [&](std::size_t i, unsigned worker) {
-            found[i] = judged_boxes(*unknown[i], scorers, words, patches, model.figures, pyramids[worker]);
+        workers.for_each(unknown.size(), [&](std::size_t i, HogPyramid& pyramid) {
+            found[i] = judged_boxes(*unknown[i], scorers, words, patches, model.figures, pyramid);
         });
         for (const auto& part : found) judged.insert(judged.end(), part.begin(), part.end());
     }

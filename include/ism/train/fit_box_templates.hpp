@@ -13,6 +13,7 @@
 #include "ism/core/error.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/random.hpp"
@@ -25,6 +26,7 @@
 #include "ism/hog/search_box.hpp"
 #include "ism/model/box_classifier.hpp"
 #include "ism/train/linear_svm.hpp"
+#include "ism/train/pyramid_workers.hpp"
 #include "ism/train/training_image.hpp"
 
 namespace ism {
@@ -114,10 +116,10 @@ namespace detail {
 }
 
 /// Which of the positives are shown mirrored: the assignment whose mean is longest, from six starts.
-[[nodiscard]] inline std::vector<std::uint8_t> sides_of(std::span<const float> plain,
-                                                        std::span<const float> mirrored,
+[[nodiscard]] inline std::vector<std::uint8_t> sides_of(std::span<const float* const> plain,
+                                                        std::span<const float* const> mirrored,
                                                         std::size_t dimension) {
-    const std::size_t count = plain.size() / dimension;
+    const std::size_t count = plain.size();
     std::vector<std::uint8_t> best;
     double longest = -1;
     for (std::uint64_t start = 0; start < 6; ++start) {
@@ -129,13 +131,12 @@ namespace detail {
         for (int round = 0; round < 12; ++round) {
             std::fill(mean.begin(), mean.end(), 0.0);
             for (std::size_t i = 0; i < count; ++i)
-                for (std::size_t k = 0; k < dimension; ++k)
-                    mean[k] += (side[i] ? mirrored : plain)[i * dimension + k];
+                for (std::size_t k = 0; k < dimension; ++k) mean[k] += (side[i] ? mirrored : plain)[i][k];
             bool changed = false;
             for (std::size_t i = 0; i < count; ++i) {
                 double a = 0, b = 0;
                 for (std::size_t k = 0; k < dimension; ++k)
-                    a += mean[k] * plain[i * dimension + k], b += mean[k] * mirrored[i * dimension + k];
+                    a += mean[k] * plain[i][k], b += mean[k] * mirrored[i][k];
                 const std::uint8_t now = b > a;
                 changed = changed || now != side[i];
                 side[i] = now;
@@ -149,16 +150,10 @@ namespace detail {
     return best;
 }
 
-/// What a template is fitted to: rows of cells.
+/// What a template is fitted to, of one image: rows of cells.
 struct TemplateExamples {
     std::vector<float> plain = {}, mirrored = {};  ///< boxes of objects, and the same as a mirror shows them
     std::vector<float> negative = {};
-
-    void append(const TemplateExamples& other) {
-        plain.insert(plain.end(), other.plain.begin(), other.plain.end());
-        mirrored.insert(mirrored.end(), other.mirrored.begin(), other.mirrored.end());
-        negative.insert(negative.end(), other.negative.begin(), other.negative.end());
-    }
 };
 
 /// The cells of boxes, as they are or mirrored, one row after another.
@@ -241,14 +236,23 @@ struct MinedBoxes {
     return mined;
 }
 
+/// Where the rows of all images begin.
+[[nodiscard]] inline std::vector<const float*> row_starts(std::span<const TemplateExamples> of_images,
+                                                          std::vector<float> TemplateExamples::*rows,
+                                                          std::size_t dimension) {
+    std::vector<const float*> starts;
+    for (const TemplateExamples& image : of_images) append(starts, ism::row_starts(image.*rows, dimension));
+    return starts;
+}
+
 /// Fits the weights of a template, and then turns each object to the side that fits better.
-inline void fit_template(BoxTemplate& one, const TemplateExamples& examples, std::vector<std::uint8_t>& side,
-                         double cost) {
+inline void fit_template(BoxTemplate& one, std::span<const TemplateExamples> examples,
+                         std::vector<std::uint8_t>& side, double cost) {
     const std::size_t dimension = one.grid.cells() * cell_numbers;
-    if (side.empty()) side = sides_of(examples.plain, examples.mirrored, dimension);
-    const auto plain = row_starts(examples.plain, dimension),
-               mirrored = row_starts(examples.mirrored, dimension),
-               negative = row_starts(examples.negative, dimension);
+    const auto plain = row_starts(examples, &TemplateExamples::plain, dimension),
+               mirrored = row_starts(examples, &TemplateExamples::mirrored, dimension),
+               negative = row_starts(examples, &TemplateExamples::negative, dimension);
+    if (side.empty()) side = sides_of(plain, mirrored, dimension);
     const std::size_t positives = plain.size(), negatives = negative.size();
     std::vector<const float*> rows;
     for (std::size_t i = 0; i < positives; ++i) rows.push_back(side[i] ? mirrored[i] : plain[i]);
@@ -282,9 +286,9 @@ struct FittedTemplates {
 /// @return the same for any number of threads
 /// @throws Error where a class has no object, or an option is out of range.
 [[nodiscard]] inline FittedTemplates fit_box_templates(std::span<const TemplateImage> images,
-                                                       std::size_t classes,
-                                                       const TemplateOptions& options = {},
-                                                       unsigned threads = 0, const Progress& progress = {}) {
+                                                       std::size_t classes, const TemplateOptions& options,
+                                                       PyramidWorkers& workers,
+                                                       const Progress& progress = {}) {
     check(options);
     FittedTemplates fitted{.templates = {}, .taken = std::vector<std::vector<Box>>(images.size())};
     std::vector<BoxTemplate>& templates = fitted.templates;
@@ -293,19 +297,16 @@ struct FittedTemplates {
     // so that the rows of all classes stay below a gigabyte
     const std::size_t max_rows = std::min<std::size_t>(6000, 40000 / classes),
                       of_image = std::max<std::size_t>(2, max_rows / images.size());
-    std::vector<detail::TemplateExamples> examples(classes);
+    std::vector<std::vector<detail::TemplateExamples>> examples(classes);
     std::vector<std::vector<std::uint8_t>> sides(classes);
-    ThreadPool workers(threads);
     for (int round = 0; round <= options.mining_rounds; ++round) {
         std::vector<TemplateScorer> scorers;
         for (std::size_t c = 0; round > 0 && c < classes; ++c) scorers.emplace_back(templates[c]);
         std::vector<std::vector<detail::TemplateExamples>> found(images.size());
-        std::vector<HogPyramid> pyramids(workers.size());  // large: their memory is used again
         ProgressCounter counter(progress, round == 0 ? "describing boxes" : "mining negatives",
                                 images.size());
-        workers.for_each(images.size(), [&](std::size_t i, unsigned worker) {
+        workers.for_each(images.size(), [&](std::size_t i, HogPyramid& pyramid) {
             ThreadPool pool(1);
-            HogPyramid& pyramid = pyramids[worker];
             pyramid.assign(images[i].color, finest_level(detail::all_boxes(images[i])), pool);
             Random random(i + 1 + std::size_t(round) * images.size());
             std::vector<SearchedBox> taken;
@@ -325,12 +326,9 @@ struct FittedTemplates {
             for (const SearchedBox& box : taken) fitted.taken[i].push_back(box.box);
             counter.step();
         });
-        pyramids.clear();
-        for (auto& of_one : found) {
-            for (std::size_t c = 0; c < classes; ++c) examples[c].append(of_one[c]);
-            of_one.clear();
-        }
-        workers.for_each(classes, [&](std::size_t c, unsigned) {
+        for (auto& of_one : found)
+            for (std::size_t c = 0; c < classes; ++c) examples[c].push_back(std::move(of_one[c]));
+        workers.pool().for_each(classes, [&](std::size_t c, unsigned) {
             detail::fit_template(templates[c], examples[c], sides[c], options.cost);
         });
     }

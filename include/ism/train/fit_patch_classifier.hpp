@@ -19,6 +19,7 @@
 #include "ism/model/patch_classifier.hpp"
 #include "ism/train/fit_box_templates.hpp"
 #include "ism/train/linear_svm.hpp"
+#include "ism/train/pyramid_workers.hpp"
 #include "ism/train/training_image.hpp"
 
 namespace ism {
@@ -27,13 +28,11 @@ namespace detail {
 
 /// Patches of objects and of the strongest hypotheses, from up to a hundred images.
 [[nodiscard]] inline std::vector<float> sampled_patches(std::span<const TemplateImage> images,
-                                                        unsigned threads) {
+                                                        PyramidWorkers& workers) {
     constexpr std::size_t max_images = 100, max_patches = 12000, max_hypotheses = 3;
     const std::size_t count = std::min(max_images, images.size()), of_image = max_patches / count;
     std::vector<std::vector<float>> found(count);
-    ThreadPool workers(threads);
-    std::vector<HogPyramid> pyramids(workers.size());  // large: their memory is used again
-    workers.for_each(count, [&](std::size_t i, unsigned worker) {
+    workers.for_each(count, [&](std::size_t i, HogPyramid& pyramid) {
         const TemplateImage& image = images[i * images.size() / count];
         std::vector<ProposedBox> boxes(
             image.proposals.begin(),
@@ -41,13 +40,13 @@ namespace detail {
         for (const ObjectLabel& label : image.labels) boxes.push_back({label.class_index, label.box});
         if (boxes.empty()) return;
         ThreadPool pool(1);
-        pyramids[worker].assign(image.color, finest_level(boxes), pool);
+        pyramid.assign(image.color, finest_level(boxes), pool);
         CellScratch scratch;
         Random random(i + 1);
         for (std::size_t b = 0; b < boxes.size(); ++b) {
             const BoxGrid grid = patch_grid(boxes[b].box);
             std::vector<float> cells(grid.cells() * cell_numbers);
-            describe_cells(pyramids[worker], boxes[b].box, grid, cells, scratch);
+            describe_cells(pyramid, boxes[b].box, grid, cells, scratch);
             const auto columns = std::size_t(grid.all_columns());
             for (std::size_t k = b * of_image / boxes.size(); k < (b + 1) * of_image / boxes.size(); ++k) {
                 const std::size_t x = random.index(columns - 1),
@@ -133,7 +132,7 @@ inline void fit_patch_weights(PatchClassifier& classifier, std::uint32_t class_i
 [[nodiscard]] inline PatchClassifier fit_patch_classifier(std::span<const TemplateImage> images,
                                                           std::span<const std::vector<Box>> boxes,
                                                           const PatchMixture& mixture, std::size_t classes,
-                                                          unsigned threads = 0) {
+                                                          PyramidWorkers& workers) {
     // so that the rows of a thousand images and as many objects take 200 MB
     const std::size_t of_image = std::max<std::size_t>(4, 6000 / images.size());
     std::size_t objects = 0;
@@ -144,21 +143,17 @@ inline void fit_patch_weights(PatchClassifier& classifier, std::uint32_t class_i
                                .bias = std::vector<float>(classes)};
     const FisherEncoder encoder(classifier.mixture);
     std::vector<detail::PatchRows> examples(images.size());
-    ThreadPool workers(threads);
-    std::vector<HogPyramid> pyramids(workers.size());  // large: their memory is used again
-    workers.for_each(images.size(), [&](std::size_t i, unsigned worker) {
+    workers.for_each(images.size(), [&](std::size_t i, HogPyramid& pyramid) {
         const auto others = std::span(boxes[i]).first(std::min(of_image, boxes[i].size()));
         std::vector<ProposedBox> all;
         for (const Box& box : others) all.push_back({0, box});
         for (const ObjectLabel& label : images[i].labels) all.push_back({label.class_index, label.box});
         ThreadPool pool(1);
-        pyramids[worker].assign(images[i].color, finest_level(all), pool);
+        pyramid.assign(images[i].color, finest_level(all), pool);
         Random random(i + 1);
-        examples[i] =
-            detail::patch_rows(images[i], others, encoder, pyramids[worker], classes, copies, random);
+        examples[i] = detail::patch_rows(images[i], others, encoder, pyramid, classes, copies, random);
     });
-    pyramids.clear();
-    workers.for_each(classes, [&](std::size_t c, unsigned) {
+    workers.pool().for_each(classes, [&](std::size_t c, unsigned) {
         detail::fit_patch_weights(classifier, std::uint32_t(c), examples);
     });
     return classifier;

@@ -17,6 +17,7 @@
 #include "ism/train/fit_patch_classifier.hpp"
 #include "ism/train/fit_patch_mixture.hpp"
 #include "ism/train/mean_figures.hpp"
+#include "ism/train/pyramid_workers.hpp"
 #include "ism/train/training_boxes.hpp"
 #include "ism/train/training_features.hpp"
 
@@ -70,13 +71,14 @@ namespace detail {
     TemplateOptions quick = options;
     quick.mining_rounds = std::min(quick.mining_rounds, 1);
     model.figures = mean_figures(model.shapes);
-    const PatchMixture mixture = fit_patch_mixture(detail::sampled_patches(images, threads));
-    const auto judged = detail::cross_judged(images, model, mixture, quick, threads, progress);
+    PyramidWorkers workers(threads);
+    const PatchMixture mixture = fit_patch_mixture(detail::sampled_patches(images, workers));
+    const auto judged = detail::cross_judged(images, model, mixture, quick, workers, progress);
     model.cue_weights = detail::fit_cue_weights(judged, classes);
     model.template_calibration = detail::calibrated(judged, model.cue_weights, classes);
-    FittedTemplates fitted = fit_box_templates(images, classes, options, threads, progress);
+    FittedTemplates fitted = fit_box_templates(images, classes, options, workers, progress);
     model.templates = std::move(fitted.templates);
-    model.patch_classifier = fit_patch_classifier(images, fitted.taken, mixture, classes, threads);
+    model.patch_classifier = fit_patch_classifier(images, fitted.taken, mixture, classes, workers);
     return model;
 }
 
