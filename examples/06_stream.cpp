@@ -95,7 +95,7 @@ class Eye {
 public:
     Eye(const ism::Model& model, unsigned threads)
         : pool_(threads), colors_(model, {of<ism::HessianLaplace>(model)}, pool_), model_(model) {
-        metric_.options.min_probability = flat_.options.min_probability = 0.3;
+        metric_.options.min_probability = flat_.options.min_probability = 0.2;
         if (!model.rgbd.empty())
             depth_.emplace(model.rgbd[0], std::vector{of<ism::DifferenceOfGaussians>(model.rgbd[0])}, pool_);
     }

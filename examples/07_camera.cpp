@@ -63,7 +63,7 @@ int main(int argc, char** argv) try {
     ism::FrameDetector detector(model);
     const ism::Recognition<ism::Jism> by_votes;
     auto by_templates = ism::template_recognition(ism::ExemplarSegmenter{});
-    by_templates.options.min_probability = 0.3;
+    by_templates.options.min_probability = 0.2;
     cv::Mat picture;  // b, g, r
     for (int i = 1; capture.read(picture); ++i) {
         ism::Stopwatch watch;
