@@ -30,20 +30,29 @@ using Recognition = ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::Te
 const std::vector<std::string> pattern_names{"first pattern", "second pattern"};
 const ism::TemplateOptions small{.cells = 36, .mining_rounds = 1};
 
-ism::TrainingFeatures pattern_features(bool pixels = true) {
-    std::vector<ism::TrainingImage> images;
-    for (std::uint64_t i = 0; i < 8; ++i)
-        images.push_back(pattern_picture(std::uint32_t(i % 2), 20 + 12 * int(i), 15 + 6 * int(i), i));
-    return ism::extract_training_features(pattern_names, ism::training_set(images),
-                                          {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
-                                          {.mirror = false, .pixels = pixels});
+// Learnt once for all tests.
+
+const ism::TrainingFeatures& pattern_features() {
+    static const auto features = [] {
+        std::vector<ism::TrainingImage> images;
+        for (std::uint64_t i = 0; i < 8; ++i)
+            images.push_back(pattern_picture(std::uint32_t(i % 2), 20 + 12 * int(i), 15 + 6 * int(i), i));
+        return ism::extract_training_features(pattern_names, ism::training_set(images),
+                                              {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
+                                              {.mirror = false, .pixels = true});
+    }();
+    return features;
 }
 
-/// Learnt once for all tests.
+const ism::Model& model_without_templates() {
+    static const ism::Model model =
+        ism::learn(pattern_features(), {.box_classifier = {}, .calibrate = false});
+    return model;
+}
+
 const TypedModel& model_with_templates() {
     static const TypedModel model(
-        ism::learn_templates(ism::learn(pattern_features(), {.box_classifier = {}, .calibrate = false}),
-                             pattern_features(), small, 1));
+        ism::learn_templates(model_without_templates(), pattern_features(), small, 1));
     return model;
 }
 
@@ -164,9 +173,7 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
 }
 
 TEST_CASE("the same templates for any number of threads") {
-    const auto features = pattern_features();
-    const ism::Model words = ism::learn(features, {.box_classifier = {}, .calibrate = false});
-    const ism::Model two = ism::learn_templates(words, features, small, 2);
+    const ism::Model two = ism::learn_templates(model_without_templates(), pattern_features(), small, 2);
     CHECK(two.templates == model_with_templates().templates);
     CHECK(two.patch_classifier == model_with_templates().patch_classifier);
     CHECK(two.template_calibration.curves == model_with_templates().template_calibration.curves);
@@ -193,7 +200,7 @@ TEST_CASE("without templates hypotheses keep the score of their votes") {
 
 TEST_CASE("templates are kept in the model file, pixels with the training features") {
     const ism::test::TemporaryFolder folder;
-    const auto features = pattern_features();
+    const ism::TrainingFeatures& features = pattern_features();
     ism::save_model(folder / "m", model_with_templates(), &features);
     CHECK(ism::load_model(folder / "m").templates == model_with_templates().templates);
     const auto read = ism::load_training_features(folder / "m");
@@ -203,14 +210,15 @@ TEST_CASE("templates are kept in the model file, pixels with the training featur
 }
 
 TEST_CASE("what templates cannot be learnt from is refused by name") {
-    const auto features = pattern_features(false);
-    const ism::Model words = ism::learn(features, {.box_classifier = {}, .calibrate = false});
-    CHECK_THROWS_WITH(ism::learn_templates(words, features),
-                      "templates: training images with pixels: expected 1 or more, got 0");
+    ism::TrainingFeatures features = pattern_features();
+    const ism::Model& words = model_without_templates();
     CHECK_THROWS_WITH(ism::learn_templates(words, features, {.cells = 3}),
                       Catch::Contains("TemplateOptions::cells"));
     CHECK_THROWS_WITH(ism::learn_templates(words, features, {.cost = 0}),
                       Catch::Contains("TemplateOptions::cost"));
+    for (ism::TrainingView& view : features.views) view.pixels = {};
+    CHECK_THROWS_WITH(ism::learn_templates(words, features),
+                      "templates: training images with pixels: expected 1 or more, got 0");
     const auto test = pattern_picture(0, 71, 53, 90);
     CHECK_THROWS_WITH(
         ism::detect(model_with_templates(), test.frame, Recognition{.rescorer = {.max_boxes = 0}}, 1),
