@@ -19,27 +19,20 @@
 #include <vector>
 
 #include "support/photographs.hpp"
+#include "support/program_model.hpp"
 #include "support/rows.hpp"
 #include <CLI/CLI.hpp>
 
-#include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
-#include "ism/detect/detect.hpp"
 #include "ism/evaluate/detections.hpp"
 #include "ism/evaluate/table.hpp"
-#include "ism/feature/hessian_laplace.hpp"
-#include "ism/feature/sift.hpp"
 #include "ism/model_file/model_file.hpp"
-#include "ism/train/extract_training_features.hpp"
-#include "ism/train/learn.hpp"
+#include "ism/train/training_features.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-
-using Model = ism::TypedModel<ism::HessianLaplace, ism::RootSift>;
-using Extractor = ism::Extractor<ism::HessianLaplace, ism::RootSift>;
 
 struct Result {
     double accuracy = 0, ap = 0, words = 0, seconds = 0;
@@ -50,12 +43,9 @@ struct Result {
 };
 
 /// A data set whose classes have the names of a model, in its order.
-[[nodiscard]] Result evaluated(const Model& model, const ism::Dataset& all) {
+[[nodiscard]] Result evaluated(const ism::Model& model, const ism::Dataset& all) {
     const ism::Dataset set = ism::select_classes(all, model.shapes.class_names);
-    std::vector<ism::Detections> found(set.images.size());
-    ism::parallel_for(set.images.size(), 0, [&](std::size_t i) {
-        found[i] = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {}, 1);
-    });
+    const auto found = bench::find_as_program(model, set, bench::votes_in("jism"), 0);
     const auto figures = ism::evaluate(set, found, ism::IouRule{});
     return {.accuracy = figures.confusion ? figures.confusion->accuracy() : 0,
             .ap = figures.mean.ap,
@@ -72,17 +62,12 @@ struct Result {
     return half;
 }
 
-[[nodiscard]] ism::TrainingFeatures features_of(const ism::Dataset& set, const Extractor& extractor,
-                                                const ism::TrainingFeatureOptions& options) {
-    return ism::extract_training_features(set.class_names, ism::training_set(set), {extractor}, options);
-}
-
 [[nodiscard]] ism::Dataset class_of(const ism::Dataset& set, std::size_t c) {
     return ism::select_classes(set, std::span(set.class_names).subspan(c, 1));
 }
 
-[[nodiscard]] Model learn_at_once(const ism::Dataset& set) {
-    return Model(ism::learn(features_of(set, {}, {})));
+[[nodiscard]] ism::Model learn_at_once(const ism::Dataset& set) {
+    return program::learn(bench::features_as_program(set, 0, {}), {});
 }
 
 /// The images in the order in which learn_in_turn() comes by them.
@@ -98,17 +83,20 @@ struct Result {
 
 /// A model in a file learns a class, again and again.
 /// @param file  for the model and its training features
-[[nodiscard]] Model learn_in_turn(const ism::Dataset& set, const fs::path& file) {
-    Model model;
+[[nodiscard]] ism::Model learn_in_turn(const ism::Dataset& set, const fs::path& file) {
+    ism::Model model;
     for (std::size_t c = 0; c < set.class_names.size(); ++c) {
         const ism::Dataset one = class_of(set, c);
         // The same number of features an object as all classes at once have.
         ism::TrainingFeatureOptions options;
         options.max_features = options.max_features * one.images.size() / set.images.size();
         options.choose_upsampling = c == 0;
-        ism::TrainingFeatures features = features_of(one, c == 0 ? Extractor{} : model.extractor(), options);
+        ism::TrainingFeatures features =
+            c == 0 ? bench::features_as_program(one, 0, options)
+                   : program::extract_training_features(one.class_names, ism::training_set(one),
+                                                        program::extractors_of(model), {.features = options});
         if (c > 0) features = ism::append(ism::load_training_features(file), std::move(features));
-        model = Model(ism::learn(features));
+        model = program::learn(features, {});
         ism::save_model(file, model, &features);
     }
     return model;
@@ -150,9 +138,9 @@ int main(int argc, char** argv) try {
             const double share = 1 / double(orders * folds.size());
             for (std::size_t way = 0; way < names_of_ways.size(); ++way) {
                 const auto begin = std::chrono::steady_clock::now();
-                Model model = way == 0   ? learn_at_once(set)
-                              : way == 1 ? learn_in_turn(set, file)
-                                         : learn_at_once(by_class(set));
+                ism::Model model = way == 0   ? learn_at_once(set)
+                                   : way == 1 ? learn_in_turn(set, file)
+                                              : learn_at_once(by_class(set));
                 const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
                 for (const bool judge : {true, false}) {
                     if (!judge) model.box_classifier = {};

@@ -21,6 +21,8 @@
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
+#include "ism/detect/recognition.hpp"
+#include "ism/detect/template_recognition.hpp"
 
 namespace {
 
@@ -49,10 +51,18 @@ struct Counts {
     });
 }
 
-[[nodiscard]] Counts counts_of(const ism::DatasetImage& image, const bench::ProgramModel& model) {
+[[nodiscard]] Counts counts_of(const ism::DatasetImage& image, const ism::Model& model) {
     std::vector<ism::Detection> all;
     const ism::Frame frame = ism::read_frame(image);
-    const auto told = ism::detect(model, frame, bench::recognition_of_program(Listener{&all}), 1);
+    const auto as_program = ism::template_recognition();
+    const ism::Recognition<ism::Jism, ism::EpanechnikovKernel, Listener, ism::PatchSegmenter,
+                           ism::NonMaximumSuppression>
+        recognition{.options = as_program.options,
+                    .bandwidth = as_program.bandwidth,
+                    .rescorer = {&all},
+                    .verifier = as_program.verifier};
+    ism::ThreadPool one(1);
+    const auto told = ism::recognise(program::Matcher(model, one).scene(frame, "jism"), recognition);
     const std::span strongest =
         std::span(all).first(std::min(all.size(), ism::TemplateScore{}.max_proposals));
     Counts counts{.images = 1, .hypotheses = double(all.size())};

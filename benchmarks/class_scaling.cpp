@@ -20,25 +20,20 @@
 
 #include "support/many_classes.hpp"
 #include "support/photographs.hpp"
+#include "support/program_model.hpp"
 #include "support/real_classes.hpp"
 #include "support/rows.hpp"
 #include "support/toy_classes.hpp"
 #include <CLI/CLI.hpp>
 
-#include "ism/detect/detect.hpp"
-#include "ism/feature/hessian_laplace.hpp"
-#include "ism/feature/sift.hpp"
+#include "ism/codebook/match.hpp"
 #include "ism/io/write_file.hpp"
 #include "ism/show/color.hpp"
 #include "ism/show/svg.hpp"
-#include "ism/train/train.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using ism::HessianLaplace;
-using ism::RootSift;
-using Model = ism::TypedModel<HessianLaplace, RootSift>;
 
 struct Settings {
     fs::path data;
@@ -73,10 +68,9 @@ struct Point {
 class ModelsApart {
 public:
     ModelsApart(const ism::TrainingFeatures& features, std::size_t classes, const ism::TrainOptions& options)
-        : pool_(options.threads),
-          extractor_(ism::extractor_from<HessianLaplace, RootSift>(features.settings.front()), pool_) {
+        : pool_(options.threads), extract_(program::make_extractor(features.settings.front()).start(pool_)) {
         for (std::uint32_t c = 0; c < classes; ++c) {
-            models_.push_back(ism::learn(bench::classes_of(features, c, c + 1), options));
+            models_.push_back(program::learn(bench::classes_of(features, c, c + 1), options));
             words_.emplace_back(models_.back().channels.front().codebook);
         }
     }
@@ -89,7 +83,7 @@ public:
 
     /// How many objects are found in a picture.
     std::size_t search(const ism::Frame& frame) {
-        const auto& found = extractor_.extract(frame.gray.view());
+        const ism::FeatureSet<float>& found = extract_(frame);
         std::size_t objects = 0;
         for (std::size_t c = 0; c < words_.size(); ++c) {
             ism::Scene scene{.frame = frame,
@@ -97,14 +91,14 @@ public:
                              .pool = pool_,
                              .features = found.features,
                              .matches = ism::match(words_[c], found.descriptors, pool_)};
-            objects += ism::recognise(std::move(scene), ism::Recognition<ism::Jism>{}).objects.size();
+            objects += program::find_objects(std::move(scene), bench::votes_in("jism")).objects.size();
         }
         return objects;
     }
 
 private:
     ism::ThreadPool pool_;
-    ism::FeatureExtractor<HessianLaplace, RootSift> extractor_;
+    ism::ExtractFeatures extract_;
     std::vector<ism::Model> models_;
     std::vector<ism::WordIndex> words_;
 };
@@ -112,10 +106,10 @@ private:
 /// How many objects of the first `classes` classes are in the pictures, and how many of these are found as
 /// what and where they are.
 [[nodiscard]] std::pair<std::size_t, std::size_t> shown_and_found(
-    ism::FrameDetector& detector, std::size_t classes, const std::vector<ism::TrainingImage>& pictures) {
+    program::Matcher& matcher, std::size_t classes, const std::vector<ism::TrainingImage>& pictures) {
     std::size_t shown = 0, right = 0;
     for (const ism::TrainingImage& picture : pictures) {
-        const auto found = detector.detect<ism::Jism>(picture.frame);
+        const auto found = matcher.find(picture.frame, bench::votes_in("jism"));
         for (const ism::LabelledObject& object : picture.objects) {
             if (object.class_index >= classes) continue;
             ++shown;
@@ -140,26 +134,28 @@ private:
     ism::TrainOptions options = votes_alone;
     if (settings.judge) options.box_classifier.emplace();
     const auto begin = std::chrono::steady_clock::now();
-    const Model joint(ism::learn(part, options));
+    const ism::Model joint = program::learn(part, options);
     point.learnt_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     ModelsApart apart(features, count, votes_alone);
     options.codebook.kind = ism::CodebookKind::per_class;
-    const Model per_class(ism::learn(part, options));
+    const ism::Model per_class = program::learn(part, options);
     point.words = {joint.words(), per_class.words(), apart.words()};
 
-    ism::FrameDetector joint_detector(joint, settings.threads),
-        per_class_detector(per_class, settings.threads);
+    ism::ThreadPool pool(settings.threads);
+    program::Matcher joint_matcher(joint, pool), per_class_matcher(per_class, pool);
     const auto each = [&](const auto& search) {
         for (const ism::Frame& frame : classes.frames) search(frame);
     };
     const std::vector<std::function<void()>> runs = {
-        [&] { each([&](const auto& frame) { (void)joint_detector.detect<ism::Jism>(frame); }); },
-        [&] { each([&](const auto& frame) { (void)per_class_detector.detect<ism::Jism>(frame); }); },
+        [&] { each([&](const auto& frame) { (void)joint_matcher.find(frame, bench::votes_in("jism")); }); },
+        [&] {
+            each([&](const auto& frame) { (void)per_class_matcher.find(frame, bench::votes_in("jism")); });
+        },
         [&] { each([&](const auto& frame) { (void)apart.search(frame); }); }};
     const std::vector<double> ms = bench::interleaved_ms(runs, settings.rounds);
     for (std::size_t k = 0; k < kinds.size(); ++k) point.ms[k] = ms[k] / double(classes.frames.size());
-    std::tie(point.shown, point.found[0]) = shown_and_found(joint_detector, count, classes.checks);
-    std::tie(point.shown, point.found[1]) = shown_and_found(per_class_detector, count, classes.checks);
+    std::tie(point.shown, point.found[0]) = shown_and_found(joint_matcher, count, classes.checks);
+    std::tie(point.shown, point.found[1]) = shown_and_found(per_class_matcher, count, classes.checks);
     return point;
 }
 
@@ -188,9 +184,10 @@ private:
 void scale(const bench::ManyClasses& classes, const Settings& settings, const fs::path& svg,
            std::vector<bench::Row>& rows) {
     const std::size_t most = classes.names.size();
-    const ism::TrainingFeatures features = ism::extract_training_features(
-        classes.names, ism::training_set(classes.images), {ism::Extractor<HessianLaplace, RootSift>{}},
-        {.max_features = 100 * classes.images.size(), .views = settings.judge});
+    const ism::TrainingFeatures features = program::extract_training_features(
+        classes.names, ism::training_set(classes.images),
+        {program::make_extractor(program::default_detector, program::default_descriptor)},
+        {.features = {.max_features = 100 * classes.images.size(), .views = settings.judge}});
     std::printf("%s: %zu classes, %zu features\n", classes.what.c_str(), most, features.feature_count());
     std::vector<std::vector<std::string>> table = {{"classes", "joint learnt s", "ms", "words", "found",
                                                     "codebook a class ms", "words", "found",
@@ -250,9 +247,8 @@ int main(int argc, char** argv) {
     try {
         std::vector<bench::Row> rows;
         if (from != "toys")
-            scale(
-                bench::real_classes(settings.data, settings.most, ism::Extractor<HessianLaplace, RootSift>{}),
-                settings, fs::path(svg) / "class_scaling_real.svg", rows);
+            scale(bench::real_classes(settings.data, settings.most), settings,
+                  fs::path(svg) / "class_scaling_real.svg", rows);
         if (from != "real")
             scale(bench::toy_classes(settings.most), settings, fs::path(svg) / "class_scaling_toys.svg",
                   rows);

@@ -22,15 +22,11 @@
 #include "ism/cluster/growing_clusters.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
-#include "ism/detect/metric.hpp"
-#include "ism/detect/metric_proposals.hpp"
 #include "ism/evaluate/detections.hpp"
 #include "ism/train/learn_metric.hpp"
 #include "ism/train/metric_extractor.hpp"
 
 namespace {
-
-using MetricModel = ism::TypedModel<ism::DifferenceOfGaussians, ism::RootSift>;
 
 /// What features vote through.
 struct Words {
@@ -99,11 +95,11 @@ const std::vector<Words> all_words = {
     return model;
 }
 
-[[nodiscard]] MetricModel model_of(ism::Model model, const Words& words, unsigned threads) {
+[[nodiscard]] ism::Model model_of(ism::Model model, const Words& words, unsigned threads) {
     if (!words.background) model = without_background(std::move(model));
     if (words.similarity < 1) model = clustered(std::move(model), words, threads);
     model.channels[0].neighbours = words.neighbours;
-    return MetricModel(std::move(model));
+    return model;
 }
 
 /// Bytes of the words and of what was seen of them.
@@ -122,21 +118,22 @@ struct Found {
 /// What was found by each kind of words, milliseconds a frame.
 [[nodiscard]] std::vector<Found> found_by_words(const ism::Dataset& train, const ism::Dataset& test,
                                                 unsigned threads) {
-    const auto features =
-        ism::extract_training_features(train.class_names, ism::training_set(train), {ism::metric_extractor()},
-                                       {.choose_upsampling = false, .mirror = false, .depth = true}, threads);
+    const auto features = program::extract_training_features(
+        train.class_names, ism::training_set(train),
+        {program::make_extractor(ism::settings_of(ism::metric_extractor()))},
+        {.features = {.choose_upsampling = false, .mirror = false, .depth = true}, .threads = threads});
     const ism::Model single = ism::learn_metric(features, {}, threads);
-    const ism::Recognition<ism::Metric, ism::EpanechnikovKernel, ism::NoRescorer, ism::PatchSegmenter,
-                           ism::NonMaximumSuppression>
-        votes{.options = ism::metric_proposal_options()};
+    program::SearchOptions votes;
+    votes.space = program::metric_space, votes.rescorer = "none";
     std::vector<Found> result;
     for (const Words& words : all_words) {
-        const MetricModel model = model_of(single, words, threads);
+        const ism::Model model = model_of(single, words, threads);
         Found found{.words = double(model.channels[0].codebook.size()), .bytes = bytes(model)};
         std::vector<ism::Detections> detections(test.images.size());
-        ism::FrameDetector detector(model, threads);
+        ism::ThreadPool pool(threads);
+        program::Matcher matcher(model, pool);
         for (std::size_t i = 0; i < test.images.size(); ++i) {
-            detections[i] = detector.detect(ism::read_frame(test.images[i]), votes);
+            detections[i] = matcher.find(ism::read_frame(test.images[i]), votes);
             found.match_ms += detections[i].stats.match_ms / double(test.images.size());
             found.vote_ms += detections[i].stats.vote_ms / double(test.images.size());
         }

@@ -22,7 +22,7 @@
 #include "ism/detect/exemplar_segmenter.hpp"
 #include "ism/detect/template_recognition.hpp"
 #include "ism/evaluate/detections.hpp"
-#include "ism/train/learn_exemplars.hpp"
+#include "ism/train/fit_box_templates.hpp"
 
 namespace {
 
@@ -41,45 +41,48 @@ void take_out_colors(ism::RgbImage& image) {
     }
 }
 
-[[nodiscard]] bench::ProgramModel judged(const ism::Model& words, const ism::TrainingFeatures& features,
-                                         const ism::TemplateOptions& templates, unsigned threads) {
-    return bench::ProgramModel(ism::learn_exemplars(ism::learn_templates(words, features, templates, threads),
-                                                    features, 300, threads));
-}
-
 /// Detects by a recognition with a model of its own.
 template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
-[[nodiscard]] Find finder(bench::ProgramModel model,
+[[nodiscard]] Find finder(ism::Model model,
                           const ism::Recognition<ism::Jism, ism::EpanechnikovKernel, R, S, V>& recognition) {
     return [model = std::move(model), recognition](const ism::Frame& frame) {
-        return ism::detect(model, frame, recognition, 1);
+        ism::ThreadPool one(1);
+        return ism::recognise(program::Matcher(model, one).scene(frame, "jism"), recognition);
+    };
+}
+
+/// The same with a search of the program.
+[[nodiscard]] Find finder(ism::Model model, const program::SearchOptions& search) {
+    return [model = std::move(model), search](const ism::Frame& frame) {
+        ism::ThreadPool one(1);
+        return program::Matcher(model, one).find(frame, search);
     };
 }
 
 [[nodiscard]] std::vector<Way> ways_of(const ism::Dataset& train, unsigned threads) {
-    ism::TrainOptions options;
-    options.threads = threads, options.features.pixels = true;
-    auto features = ism::extract_training_features(train.class_names, ism::training_set(train),
-                                                   {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
-                                                   options.features, threads);
-    const ism::Model words = ism::learn(features, options);
+    const ism::TrainOptions options{.threads = threads};
+    ism::TrainingFeatures features = bench::features_as_program(train, threads);
+    const ism::Model words = program::learn(features, options);
+    const auto judged = [&](const ism::TemplateOptions& templates) {
+        return program::learn_templates(words, features, options, templates);
+    };
+    const ism::Model model = judged({});
     const auto recognition = ism::template_recognition<ism::Jism>(ism::ExemplarSegmenter{});
-    const bench::ProgramModel model = judged(words, features, {}, threads);
+    const program::SearchOptions search = bench::all_by_templates();
 
-    std::vector<Way> ways = {{"all parts", finder(model, recognition)}};
+    std::vector<Way> ways = {{"all parts", finder(model, search)}};
     const auto add = [&](const char* name, Find find) { ways.push_back({name, std::move(find)}); };
     for (const auto& [name, weight] :
          {std::pair{"patches do not judge", &ism::CueWeights::patches},
           std::pair{"words do not judge", &ism::CueWeights::words},
           std::pair{"votes do not judge", &ism::CueWeights::votes},
           std::pair{"contrast of colours does not judge", &ism::CueWeights::colors}}) {
-        bench::ProgramModel without = model;
+        ism::Model without = model;
         without.cue_weights.*weight = 0;
-        add(name, finder(std::move(without), recognition));
+        add(name, finder(std::move(without), search));
     }
-    add("no mining of negatives",
-        finder(judged(words, features, {.mining_rounds = 0}, threads), recognition));
-    add("no jittered copies", finder(judged(words, features, {.jittered_copies = 0}, threads), recognition));
+    add("no mining of negatives", finder(judged({.mining_rounds = 0}), search));
+    add("no jittered copies", finder(judged({.jittered_copies = 0}), search));
     auto other = recognition;
     other.rescorer.max_classes = 1;
     add("asked about their own class alone", finder(model, other));
@@ -89,17 +92,17 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
     other = recognition;
     other.verifier.max_inside = 1;
     add("parts of objects not suppressed", finder(model, other));
-    add("masks of patches", finder(model, ism::template_recognition<ism::Jism>()));
-    add("votes and words (no templates)", finder(model, ism::Recognition<ism::Jism>{}));
-    add("votes alone",
-        finder(model, ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer>{}));
+    program::SearchOptions of_patches = search;
+    of_patches.segmenter = "patches";
+    add("masks of patches", finder(model, of_patches));
+    add("votes and words (no templates)", finder(model, bench::votes_in("jism")));
+    add("votes alone", finder(model, bench::votes_in("jism", "none")));
     for (ism::TrainingView& view : features.views) take_out_colors(view.pixels);
-    add("no colours",
-        [find = finder(judged(words, features, {}, threads), recognition)](const ism::Frame& frame) {
-            ism::Frame gray = frame;
-            take_out_colors(gray.color);
-            return find(gray);
-        });
+    add("no colours", [find = finder(judged({}), search)](const ism::Frame& frame) {
+        ism::Frame gray = frame;
+        take_out_colors(gray.color);
+        return find(gray);
+    });
     return ways;
 }
 

@@ -86,22 +86,18 @@ struct Sum {
 /// Learns each way from the same images, and lets them search the same pictures in turn.
 [[nodiscard]] std::vector<Way> measured(const ism::Dataset& train, const ism::Dataset& val, unsigned threads,
                                         [[maybe_unused]] const bench::DlibOptions& dlib_options) {
-    bench::ProgramModel model;
+    ism::Model model;
     const double train_s = seconds_of([&] { model = bench::learn_as_program(train, threads); });
-    using VotesAndWords = ism::Recognition<ism::Jism>;
-    using Votes = ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer>;
-    const auto found_by = [&](const ism::Frame& frame, const auto& recognition, std::size_t image) {
-        return ism::found_objects(ism::detect(model, frame, recognition, 1).objects, image);
+    ism::ThreadPool one(1);
+    program::Matcher matcher(model, one);
+    const auto find_by = [&](const program::SearchOptions& search) {
+        return [&matcher, search](const ism::Frame& frame, std::size_t image) {
+            return ism::found_objects(matcher.find(frame, search).objects, image);
+        };
     };
-    std::vector<Way> ways = {
-        {"templates",
-         [&](const ism::Frame& frame, std::size_t i) {
-             return found_by(frame, bench::recognition_of_program(), i);
-         },
-         train_s},
-        {"votes and words",
-         [&](const ism::Frame& frame, std::size_t i) { return found_by(frame, VotesAndWords{}, i); }},
-        {"votes alone", [&](const ism::Frame& frame, std::size_t i) { return found_by(frame, Votes{}, i); }}};
+    std::vector<Way> ways = {{"templates", find_by(bench::all_by_templates()), train_s},
+                             {"votes and words", find_by(bench::votes_in("jism"))},
+                             {"votes alone", find_by(bench::votes_in("jism", "none"))}};
 #if defined(ISM_HAVE_DLIB)
     std::vector<ism::TrainingImage> images;
     for (const ism::DatasetImage& image : train.images) images.push_back(ism::read_training_image(image));

@@ -13,35 +13,28 @@
 #include <vector>
 
 #include "support/photographs.hpp"
+#include "support/program_model.hpp"
 #include "support/rows.hpp"
 #include <CLI/CLI.hpp>
 
 #include "ism/dataset/coco.hpp"
-#include "ism/dataset/read_images.hpp"
-#include "ism/detect/detect.hpp"
 #include "ism/evaluate/detections.hpp"
-#include "ism/feature/hessian_laplace.hpp"
-#include "ism/feature/sift.hpp"
 #include "ism/io/write_file.hpp"
 #include "ism/show/color.hpp"
 #include "ism/show/svg.hpp"
-#include "ism/train/train.hpp"
+#include "ism/train/select_words.hpp"
 #include "ism/train/vote_agreement.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-using Model = ism::TypedModel<ism::HessianLaplace, ism::RootSift>;
 
 struct Figures {
     double accuracy = 0, ap = 0;
 };
 
-[[nodiscard]] Figures figures_of(const Model& model, const ism::Dataset& set) {
-    std::vector<ism::Detections> found(set.images.size());
-    ism::parallel_for(set.images.size(), 0, [&](std::size_t i) {
-        found[i] = ism::detect<ism::Jism>(model, ism::read_frame(set.images[i]), {}, 1);
-    });
+[[nodiscard]] Figures figures_of(const ism::Model& model, const ism::Dataset& set) {
+    const auto found = bench::find_as_program(model, set, bench::votes_in("jism"), 0);
     const auto evaluation = ism::evaluate(set, found, ism::IouRule{0.5});
     return {evaluation.confusion ? evaluation.confusion->accuracy() : std::nan(""), evaluation.mean.ap};
 }
@@ -56,11 +49,9 @@ void measure(const fs::path& data, bool judge, const std::string& svg) {
                                 Choice{"vote agreement", ism::vote_agreement}};
     const ism::Dataset train = ism::read_dataset(data / "train.json"),
                        test = ism::read_dataset(data / "test.json");
-    const auto features = ism::extract_training_features(
-        train.class_names, ism::training_set(train), {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
-        {.views = judge});
+    const auto features = bench::features_as_program(train, 0, {.views = judge});
     ism::TrainOptions options{.box_classifier = std::nullopt, .calibrate = false};
-    const std::size_t all = ism::learn(features, options).words();
+    const std::size_t all = program::learn(features, options).words();
     if (judge) options.box_classifier.emplace();
     std::vector<std::vector<std::string>> table = {
         {"words", "occurrences", "", "information gain", "", "vote agreement", ""},
@@ -74,7 +65,7 @@ void measure(const fs::path& data, bool judge, const std::string& svg) {
         std::vector<std::string> row = {std::to_string(count)};
         for (std::size_t m = 0; m < choices.size(); ++m) {
             options.selection = {.max_words = count, .worth = choices[m].worth};
-            const Figures figures = figures_of(Model(ism::learn(features, options)), test);
+            const Figures figures = figures_of(program::learn(features, options), test);
             row.push_back(bench::number(100 * figures.accuracy, 1));
             row.push_back(bench::number(100 * figures.ap, 1));
             plot.curves[m].x.push_back(std::log2(double(count)));

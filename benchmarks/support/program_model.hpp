@@ -4,32 +4,35 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "extractors.hpp"
+#include "learning.hpp"
+#include "spaces.hpp"
+
+#include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
-#include "ism/detect/detect.hpp"
-#include "ism/detect/proposals.hpp"
-#include "ism/detect/template_score.hpp"
-#include "ism/feature/hessian_laplace.hpp"
-#include "ism/feature/sift.hpp"
-#include "ism/train/extract_training_features.hpp"
-#include "ism/train/learn.hpp"
-#include "ism/train/learn_templates.hpp"
 
 namespace bench {
 
-/// @brief What `ism train` learns with its defaults.
-using ProgramModel = ism::TypedModel<ism::HessianLaplace, ism::RootSift>;
+/// @brief The features that `ism train` learns from by default.
+/// @param features  with pixels templates can be learnt from them
+[[nodiscard]] inline ism::TrainingFeatures features_as_program(const ism::Dataset& set, unsigned threads,
+                                                               const ism::TrainingFeatureOptions& features = {
+                                                                   .pixels = true}) {
+    return program::extract_training_features(
+        set.class_names, ism::training_set(set),
+        {program::make_extractor(program::default_detector, program::default_descriptor)},
+        {.features = features, .threads = threads});
+}
 
-[[nodiscard]] inline ProgramModel learn_as_program(const ism::Dataset& set, unsigned threads,
-                                                   const ism::TemplateOptions& templates = {}) {
-    ism::TrainOptions options;
-    options.threads = threads, options.features.pixels = true;
-    const auto features = ism::extract_training_features(
-        set.class_names, ism::training_set(set), {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
-        options.features, threads);
-    return ProgramModel(ism::learn_templates(ism::learn(features, options), features, templates, threads));
+/// @brief What `ism train` learns from colour images with its defaults.
+[[nodiscard]] inline ism::Model learn_as_program(const ism::Dataset& set, unsigned threads) {
+    const ism::TrainingFeatures features = features_as_program(set, threads);
+    const ism::TrainOptions options{.threads = threads};
+    return program::learn_templates(program::learn(features, options), features, options);
 }
 
 /// @brief What figures are told for: test.json of a set's folder, or val.json, with the classes of a model.
@@ -40,17 +43,32 @@ using ProgramModel = ism::TypedModel<ism::HessianLaplace, ism::RootSift>;
                                class_names);
 }
 
-/// @brief How `ism detect` searches with templates by its defaults.
-template <ism::Rescorer R = ism::TemplateScore>
-using ProgramRecognition =
-    ism::Recognition<ism::Jism, ism::EpanechnikovKernel, R, ism::PatchSegmenter, ism::NonMaximumSuppression>;
+/// @brief Votes judged by the words in their boxes, or by nothing ("none"): a search without templates.
+[[nodiscard]] inline program::SearchOptions votes_in(std::string_view space,
+                                                     std::string_view rescorer = "boxes") {
+    program::SearchOptions search;
+    search.space = space, search.rescorer = rescorer, search.verifier = "mdl", search.segmenter = "patches";
+    return search;
+}
 
-template <ism::Rescorer R = ism::TemplateScore>
-[[nodiscard]] ProgramRecognition<R> recognition_of_program(R rescorer = {}) {
-    return {.options = ism::proposal_options(),
-            .bandwidth = ism::proposal_bandwidth<ism::Jism>(),
-            .rescorer = rescorer,
-            .verifier = {.max_inside = 0.5, .across_classes = false}};
+/// @brief A search with templates that tells every hypothesis.
+[[nodiscard]] inline program::SearchOptions all_by_templates() {
+    program::SearchOptions search;
+    search.space = "jism", search.rescorer = "template", search.min_score = 0;
+    return search;
+}
+
+/// @brief Searches all images of a set, shared out among threads.
+[[nodiscard]] inline std::vector<ism::Detections> find_as_program(const ism::Model& model,
+                                                                  const ism::Dataset& set,
+                                                                  const program::SearchOptions& search,
+                                                                  unsigned threads) {
+    std::vector<ism::Detections> found(set.images.size());
+    ism::parallel_for(set.images.size(), threads, [&](std::size_t i) {
+        ism::ThreadPool one(1);
+        found[i] = program::Matcher(model, one).find(ism::read_frame(set.images[i]), search);
+    });
+    return found;
 }
 
 }  // namespace bench

@@ -9,22 +9,24 @@
 #include <utility>
 #include <vector>
 
+#include "commands.hpp"
+#include "extractors.hpp"
 #include "support/many_classes.hpp"
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
-#include "ism/feature/extract.hpp"
+#include "ism/feature/any_extractor.hpp"
 
 namespace bench {
 
 /// @brief Real objects, each a class of its own that is learnt from one picture: of several sets by turns, so
-/// that any first part has some of each, and only those that an extractor finds 20 features on. Pictures to
+/// that any first part has some of each, and only those that the program finds 20 features on. Pictures to
 /// search are those of desks in osd/val, to check the training images of the first 32 classes.
 /// @param data  folder of the data sets
-template <ism::Detector D, ism::Descriptor Desc>
-[[nodiscard]] ManyClasses real_classes(const std::filesystem::path& data, std::size_t count,
-                                       const ism::Extractor<D, Desc>& extractor) {
+[[nodiscard]] inline ManyClasses real_classes(const std::filesystem::path& data, std::size_t count) {
+    const ism::AnyExtractor extractor =
+        program::make_extractor(program::default_detector, program::default_descriptor);
     std::vector<std::vector<std::pair<ism::DatasetImage, std::size_t>>> sets;  // image and object of each
     std::size_t longest = 0;
     for (const char* set : {"four-class/train", "msrc/train", "osd/train", "sysu-shapes/train",
@@ -42,8 +44,9 @@ template <ism::Detector D, ism::Descriptor Desc>
             if (turn >= sets[s].size()) return;
             ism::TrainingImage image = ism::read_training_image(sets[s][turn].first);
             const ism::LabelledObject object = image.objects.at(sets[s][turn].second);
+            ism::ThreadPool one(1);
             std::size_t features = 0;
-            for (const ism::Feature& f : ism::extract(image.frame.gray.view(), extractor).features)
+            for (const ism::Feature& f : extractor.start(one)(image.frame).features)
                 features += f.x >= object.box.x && f.y >= object.box.y &&
                             f.x < object.box.x + object.box.width && f.y < object.box.y + object.box.height;
             if (features < 20) return;

@@ -9,15 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "support/program_model.hpp"
+
 #include "ism/core/frame.hpp"
 #include "ism/core/random.hpp"
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
-#include "ism/detect/frame_matcher.hpp"
 #include "ism/detect/hypotheses.hpp"
-#include "ism/feature/hessian_laplace.hpp"
-#include "ism/feature/sift.hpp"
-#include "ism/train/train.hpp"
 #include "ism/vote/cast.hpp"
 
 namespace bench {
@@ -32,16 +30,14 @@ using FiveAxesAndClass = ism::VoteSpace<ism::X, ism::Y, ism::Scale, ism::Depth, 
 /// with soft matching, in the five axes.
 [[nodiscard]] inline std::vector<std::vector<ism::Vote<5>>> osd_votes(const std::filesystem::path& data) {
     const ism::Dataset lessons = ism::read_dataset(data / "osd" / "train.json");
-    const auto model =
-        ism::train<ism::HessianLaplace, ism::RootSift>(lessons.class_names, ism::training_set(lessons),
-                                                       {.box_classifier = std::nullopt, .calibrate = false});
-    const std::vector<ism::AnyExtractor> extractors = {model.extractor()};
+    const ism::Model model = program::learn(features_as_program(lessons, 0, {}),
+                                            {.box_classifier = std::nullopt, .calibrate = false});
     ism::ThreadPool pool(0);
-    ism::FrameMatcher matcher(model, extractors, pool);
+    program::Matcher matcher(model, pool);
     std::vector<std::vector<ism::Vote<5>>> votes;
     for (const ism::DatasetImage& image : ism::read_dataset(data / "osd" / "val.json").images) {
         const ism::Frame frame = ism::read_frame(image);
-        votes.push_back(ism::cast_votes<FiveAxesAndClass>(matcher.scene(frame), ism::MatchMode::all,
+        votes.push_back(ism::cast_votes<FiveAxesAndClass>(matcher.scene(frame, "jism"), ism::MatchMode::all,
                                                           {.width = double(frame.gray.width()),
                                                            .height = double(frame.gray.height()),
                                                            .min_scale = 0.2,

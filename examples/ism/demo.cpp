@@ -14,6 +14,7 @@
 #include "input.hpp"
 #include "learning.hpp"
 #include "output.hpp"
+#include "pictures.hpp"
 #include "progress.hpp"
 #include "spaces.hpp"
 #include "toy/toy_set.hpp"
@@ -22,7 +23,6 @@
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/dataset/to_results.hpp"
-#include "ism/detect/frame_matcher.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"
@@ -183,7 +183,7 @@ void run_demo(const DemoCommand& command) {
         progress.tell(stage, done, total);
     };
     const auto features =
-        extract_training_features(set.train.class_names, ism::training_set(set.train),
+        extract_training_features(set.train.class_names, ism::training_set(set.train, read_picture),
                                   {make_extractor(default_detector, default_descriptor)}, options);
     const ism::Model model = learn(features, options);
     ism::save_model(folder / "model.safetensors", model);
@@ -196,16 +196,15 @@ void run_demo(const DemoCommand& command) {
     std::vector<SceneOutcome> scenes(count);
     std::vector<std::vector<ism::Result>> told(count);  // what the page shows
     ism::ThreadPool pool(command.threads);
-    const std::vector<ism::AnyExtractor> extractors = extractors_of(model);
     std::deque<ism::ThreadPool> single;  // one a worker
-    std::deque<ism::FrameMatcher> matchers;
+    std::deque<Matcher> matchers;
     for (unsigned worker = 0; worker < pool.size(); ++worker)
-        matchers.emplace_back(model, extractors, single.emplace_back(1u));
+        matchers.emplace_back(model, single.emplace_back(1u));
     pool.for_each(count, [&](std::size_t i, unsigned worker) {
         const ism::DatasetImage& image = set.test.images[i];
-        const ism::Frame frame = ism::read_frame(image);
+        const ism::Frame frame = ism::read_frame(image, read_picture);
         const Stopwatch look_watch;
-        const ism::Scene scene = matchers[worker].scene(frame);
+        const ism::Scene scene = matchers[worker].scene(frame, shown_space);
         const double look_seconds = look_watch.seconds();
         for (std::size_t s = 0; s < space_names.size(); ++s) {
             SearchOptions search;
@@ -225,11 +224,10 @@ void run_demo(const DemoCommand& command) {
     DetectPage page(set.test, told, shapes.class_names, short_names(set.test), report_scenes);
     pool.for_each(page.images().size(), [&](std::size_t k, unsigned worker) {
         const ism::DatasetImage& image = set.test.images[page.images()[k]];
-        const ism::Frame frame = ism::read_frame(image);
+        const ism::Frame frame = ism::read_frame(image, read_picture);
         SearchOptions search;
         search.space = shown_space, search.explain = true;
-        page.add(k, ism::read_rgb(image.file), find_objects(matchers[worker].scene(frame), search),
-                 report_rows, {});
+        page.add(k, ism::read_rgb(image.file), matchers[worker].find(frame, search), report_rows, {});
     });
 
     std::vector<SpaceOutcome> outcomes;

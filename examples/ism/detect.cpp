@@ -11,7 +11,6 @@
 #include "commands.hpp"
 #include "detect_input.hpp"
 #include "detect_page.hpp"
-#include "extractors.hpp"
 #include "input.hpp"
 #include "output.hpp"
 #include "progress.hpp"
@@ -21,8 +20,6 @@
 
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/to_results.hpp"
-#include "ism/detect/frame_matcher.hpp"
-#include "ism/detect/metric.hpp"
 #include "ism/show/overlay.hpp"
 
 namespace program {
@@ -163,14 +160,11 @@ public:
     Searcher(const ism::Model& model, const DetectCommand& command, std::size_t images)
         : pool(images > 1 ? command.threads : 1),
           search_(command.search),
-          may_be_metric_(metric_allowed(model, search_)),
-          extractors_(extractors_of(model)) {
-        for (const ism::Model& rgbd : model.rgbd) rgbd_extractors_ = extractors_of(rgbd);
+          may_be_metric_(metric_allowed(model, search_)) {
         for (unsigned worker = 0; worker < pool.size(); ++worker) {
             ism::ThreadPool& own = inner_pools_.emplace_back(images > 1 ? 1 : command.threads);
-            matchers_.emplace_back(model, extractors_, own);
-            for (const ism::Model& rgbd : model.rgbd)
-                rgbd_matchers_.emplace_back(rgbd, rgbd_extractors_, own);
+            matchers_.emplace_back(model, own);
+            for (const ism::Model& rgbd : model.rgbd) rgbd_matchers_.emplace_back(rgbd, own);
         }
     }
 
@@ -182,10 +176,7 @@ public:
         SearchOptions search = search_;
         search.explain = explain;
         search.space = space_of(frame, search.space, may_be_metric_);
-        return find_objects(searches_in_metres(frame)
-                                ? rgbd_matchers_[worker].scene(frame, ism::match_in<ism::Metric>())
-                                : matchers_[worker].scene(frame),
-                            search);
+        return (searches_in_metres(frame) ? rgbd_matchers_ : matchers_)[worker].find(frame, search);
     }
 
     ism::ThreadPool pool;
@@ -193,9 +184,8 @@ public:
 private:
     const SearchOptions& search_;
     bool may_be_metric_;
-    std::vector<ism::AnyExtractor> extractors_, rgbd_extractors_;
     std::deque<ism::ThreadPool> inner_pools_;  // one a worker
-    std::deque<ism::FrameMatcher> matchers_, rgbd_matchers_;
+    std::deque<Matcher> matchers_, rgbd_matchers_;
 };
 
 /// What came of a run.

@@ -36,7 +36,12 @@ ism::Model learn(const ism::TrainingFeatures& features, const ism::TrainOptions&
 
 ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& features,
                            const ism::TrainOptions& options) {
-    model = ism::learn_templates(std::move(model), features, {}, options.threads, options.progress);
+    return learn_templates(std::move(model), features, options, {});
+}
+
+ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& features,
+                           const ism::TrainOptions& options, const ism::TemplateOptions& templates) {
+    model = ism::learn_templates(std::move(model), features, templates, options.threads, options.progress);
     return ism::learn_exemplars(std::move(model), features, 300, options.threads);
 }
 

@@ -13,7 +13,8 @@
 
 namespace ism {
 struct SharedFeatures;
-}
+struct TemplateOptions;
+}  // namespace ism
 
 namespace program {
 
@@ -29,6 +30,9 @@ namespace program {
 [[nodiscard]] ism::Model learn(const ism::TrainingFeatures& features, const ism::TrainOptions& options);
 [[nodiscard]] ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& features,
                                          const ism::TrainOptions& options);
+[[nodiscard]] ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& features,
+                                         const ism::TrainOptions& options,
+                                         const ism::TemplateOptions& templates);
 /// A model for frames with depth: extract_training_features() with metric_extractor(), learn_metric(),
 /// learn_mask_judge().
 [[nodiscard]] ism::Model learn_rgbd(std::span<const std::string> class_names, const ism::TrainingSet& set,

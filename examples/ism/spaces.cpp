@@ -6,6 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "extractors.hpp"
+
 #include "ism/detect/exemplar_segmenter.hpp"
 #include "ism/detect/metric_recognition.hpp"
 #include "ism/detect/recognition.hpp"
@@ -85,7 +87,7 @@ static_assert(finders.size() == space_names.size() && depth_needed.size() == spa
 
 /// Regions judged by votes in metres, colour and shape.
 ism::Detections find_in_metres(ism::Scene scene, const SearchOptions& search) {
-    ism::expect(!scene.model.mask_judge.empty(), "--space metric",
+    ism::expect(search.rescorer == "none" || !scene.model.mask_judge.empty(), "--space metric",
                 "a model learnt from images with depth and camera", "one without");
     ism::expect(search.rescorer == "auto" || search.rescorer == "none", "--rescore in the space metric",
                 "auto or none", search.rescorer);
@@ -113,9 +115,20 @@ std::size_t space_index(std::string_view name) {
 
 }  // namespace
 
+Matcher::Matcher(const ism::Model& model, ism::ThreadPool& pool)
+    : matcher_(model, extractors_of(model), pool) {}
+
+ism::Scene Matcher::scene(const ism::Frame& frame, std::string_view space) {
+    return matcher_.scene(frame, space == metric_space ? ism::match_in<ism::Metric>() : ism::match_within);
+}
+
 ism::Detections find_objects(ism::Scene scene, const SearchOptions& search) {
     if (search.space == metric_space) return find_in_metres(std::move(scene), search);
     return finders[space_index(search.space)](std::move(scene), search);
+}
+
+ism::Detections Matcher::find(const ism::Frame& frame, const SearchOptions& search) {
+    return find_objects(scene(frame, search.space), search);
 }
 
 bool needs_depth(std::string_view space) {

@@ -50,7 +50,7 @@ ism::WordWorth worth_of(const std::string& measure) {
 
 /// The images of a data set, named as seen from its folder.
 ism::TrainingSet named_images(const ism::Dataset& dataset) {
-    ism::TrainingSet set = ism::training_set(dataset);
+    ism::TrainingSet set = ism::training_set(dataset, read_picture);
     set.image = [&dataset](std::size_t i) {
         ism::TrainingImage image = ism::read_training_image(dataset.images[i], read_picture);
         image.name = short_name(dataset, dataset.images[i]);

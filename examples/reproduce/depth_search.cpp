@@ -17,7 +17,6 @@
 #include "ism/core/stopwatch.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/to_results.hpp"
-#include "ism/detect/frame_matcher.hpp"
 #include "ism/detect/metric.hpp"
 #include "ism/detect/metric_proposals.hpp"
 #include "ism/train/describe_object.hpp"
@@ -59,15 +58,14 @@ program::SearchOptions search_of(std::size_t way) {
 class Looker {
 public:
     Looker(const DepthModels& models, ism::ThreadPool& pool)
-        : words_(models.words, program::extractors_of(models.words), pool),
-          metric_(models.metric, program::extractors_of(models.metric), pool) {}
+        : words_(models.words, pool), metric_(models.metric, pool) {}
 
     /// @param with_reading  without the matches of features that have no depth
     [[nodiscard]] ism::Scene words(const ism::Frame& frame, bool with_reading) {
-        return kept(words_.scene(frame), with_reading);
+        return kept(words_.scene(frame, depth_spaces.front()), with_reading);
     }
     [[nodiscard]] ism::Scene metric(const ism::Frame& frame) {
-        ism::Scene scene = metric_.scene(frame, ism::match_in<ism::Metric>());
+        ism::Scene scene = metric_.scene(frame, program::metric_space);
         ism::add_surface(scene);
         return scene;
     }
@@ -81,7 +79,7 @@ private:
         return scene;
     }
 
-    ism::FrameMatcher words_, metric_;
+    program::Matcher words_, metric_;
 };
 
 std::vector<ism::TrueObject> true_objects(const Shot& shot) {

@@ -14,7 +14,6 @@
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/dataset/to_results.hpp"
-#include "ism/detect/frame_matcher.hpp"
 #include "ism/evaluate/table.hpp"
 
 namespace reproduce {
@@ -63,15 +62,14 @@ std::vector<Outcome> search(const ism::Model& model, const ism::Dataset& images,
     };
     std::vector<std::vector<Found>> found(images.images.size(), std::vector<Found>(ways.size()));
     ism::ThreadPool pool(threads);
-    const std::vector<ism::AnyExtractor> extractors = program::extractors_of(model);
     std::deque<ism::ThreadPool> single;  // one a worker
-    std::deque<ism::FrameMatcher> matchers;
+    std::deque<program::Matcher> matchers;
     for (unsigned worker = 0; worker < pool.size(); ++worker)
-        matchers.emplace_back(model, extractors, single.emplace_back(1u));
+        matchers.emplace_back(model, single.emplace_back(1u));
     pool.for_each(images.images.size(), [&](std::size_t i, unsigned worker) {
         const ism::Frame frame = ism::read_frame(images.images[i]);
         ism::Stopwatch watch;
-        const ism::Scene scene = matchers[worker].scene(frame);
+        const ism::Scene scene = matchers[worker].scene(frame, ways.front().space);
         const double look_ms = watch.lap_ms();
         for (std::size_t w = 0; w < ways.size(); ++w) {
             watch.lap_ms();
