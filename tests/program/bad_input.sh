@@ -64,7 +64,7 @@ $line "'toys': expected a file to write, got a folder" "$ism" train --data toys/
 cp toys/train.json copy.json
 $line "expected another file than an input" "$ism" train --data copy.json -o copy.json
 cmp toys/train.json copy.json || fail "an input was written over"
-$line "'/dev/full'" "$ism" train --data toys/train.json -o /dev/full
+$line "'/dev/full'" "$ism" train --data toys/train.json -o /dev/full --no-templates
 $line "'nowhere/report.html'" "$ism" detect --model $model --data toys/test.json -o out --report nowhere/report.html
 $line "folder 'copy.json': expected a folder, got a file" \
     "$ism" detect --model $model --data toys/test.json -o out --overlay copy.json

@@ -298,7 +298,7 @@ TEST_CASE("wrong frames are refused by name") {
 
 TEST_CASE("wrong training images are refused by name") {
     auto images = training_set();
-    const auto train = [&](const ism::TrainOptions& options = {}) {
+    const auto train = [&](const ism::TrainOptions& options = {.box_classifier = {}, .calibrate = false}) {
         return ism::train<ism::HessianLaplace, ism::RootSift>(names, images, options);
     };
     CHECK_THROWS_WITH(train({.codebook = {.min_similarity = 2}}), Catch::Contains("similarity"));
