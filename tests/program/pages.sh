@@ -48,6 +48,15 @@ if [[ -z $browser ]]; then
     echo "skipped: pages in a browser: no chromium (scripts/install_dependencies pages)"
     exit 77
 fi
+# browse <arguments...>: without what containers may lack, a display, a sandbox and shared memory
+browse() {
+    "$browser" --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir="$PWD/browser" "$@"
+}
+browse --dump-dom "data:text/html,<p>seen" >seen.html 2>browser.err || true
+if ! grep -q seen seen.html; then
+    echo "skipped: pages in a browser: $browser does not start here: $(tail -n 1 browser.err)"
+    exit 77
+fi
 # widths <page...>: "page screen widest" for each page and screen, told by a script in its copy; complaints in console.txt
 widths() {
     local page number=0 frames=""
@@ -70,8 +79,8 @@ END
         echo 'addEventListener("message", e => document.querySelector("pre").textContent += e.data + "\n")</script>'
         echo "$frames"
     } >frames.html
-    "$browser" --headless --no-sandbox --disable-gpu --user-data-dir="$PWD/browser" --hide-scrollbars --enable-logging=stderr \
-        --virtual-time-budget=20000 --dump-dom "file://$PWD/frames.html" 2>browser.err | sed -n '/<pre>/,/<\/pre>/p' |
+    browse --hide-scrollbars --enable-logging=stderr --virtual-time-budget=20000 \
+        --dump-dom "file://$PWD/frames.html" 2>browser.err | sed -n '/<pre>/,/<\/pre>/p' |
         grep -oE '[a-z]+[^ >]* (390|1280) [0-9]+' | sort
     grep CONSOLE browser.err >console.txt || true
 }

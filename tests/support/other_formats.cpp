@@ -35,6 +35,7 @@ struct Sample {
 void copy_to(const fs::path& from, const fs::path& to) {
     fs::create_directories(to.parent_path());
     fs::copy_file(from, to, fs::copy_options::overwrite_existing);
+    fs::permissions(to, fs::perms::owner_write, fs::perm_options::add);  // data may be for reading alone
 }
 
 void write_text(const fs::path& to, const std::string& text) {
