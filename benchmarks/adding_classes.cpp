@@ -18,12 +18,13 @@
 #include <utility>
 #include <vector>
 
+#include "extractors.hpp"
+#include "support/data_sets.hpp"
+#include "support/options.hpp"
 #include "support/photographs.hpp"
 #include "support/program_model.hpp"
 #include "support/rows.hpp"
-#include <CLI/CLI.hpp>
 
-#include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/evaluate/detections.hpp"
 #include "ism/evaluate/table.hpp"
@@ -108,20 +109,20 @@ int main(int argc, char** argv) try {
     fs::path data = bench::data_folder(), json;
     std::size_t orders = 4;
     bool halves = false;
-    CLI::App app("Classes one after another against all at once, on four-class.");
-    app.add_option("--data", data, "folder of the data sets");
-    app.add_option("--orders", orders, "orders of the classes, each beginning with another")
-        ->check(CLI::Range(1, 4));
-    app.add_flag("--halves", halves, "halves of the training images, each tested on the other: for choices");
-    app.add_option("--json", json, "write the rows to this file");
-    CLI11_PARSE(app, argc, argv);
+    bench::Options command_line("Classes one after another against all at once, on four-class.");
+    command_line.add("--data", data, "folder of the data sets");
+    command_line.add("--orders", orders, "orders of the classes, each beginning with another", {1, 4});
+    command_line.add("--halves", halves,
+                     "halves of the training images, each tested on the other: for choices");
+    command_line.add("--json", json, "write the rows to this file");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
 
-    const ism::Dataset train = ism::read_dataset(data / "four-class/train.json");
+    const ism::Dataset train = bench::read_set(data / "four-class/train.json");
     std::vector<std::pair<ism::Dataset, ism::Dataset>> folds;
     if (halves)
         folds = {{half_of(train, 0), half_of(train, 1)}, {half_of(train, 1), half_of(train, 0)}};
     else
-        folds = {{train, ism::read_dataset(data / "four-class/test.json")}};
+        folds = {{train, bench::read_set(data / "four-class/test.json")}};
 
     const std::vector<std::string> names_of_ways = {"at once", "in turn, features appended",
                                                     "at once, class after class"};

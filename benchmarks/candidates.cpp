@@ -14,13 +14,13 @@
 #include <string>
 #include <vector>
 
+#include "support/data_sets.hpp"
 #include "support/program_model.hpp"
 #include "support/rows.hpp"
 #include "support/set_options.hpp"
-#include <CLI/CLI.hpp>
 
 #include "ism/core/thread_pool.hpp"
-#include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/detect/recognition.hpp"
 #include "ism/detect/template_recognition.hpp"
 
@@ -78,7 +78,7 @@ struct Counts {
 }
 
 [[nodiscard]] Counts measured(const std::filesystem::path& folder, unsigned threads) {
-    const auto model = bench::learn_as_program(ism::read_dataset(folder / "train.json"), threads);
+    const auto model = bench::learn_as_program(bench::read_set(folder / "train.json"), threads);
     const ism::Dataset set = bench::held_out(folder, model.shapes.class_names);
     std::vector<Counts> of_image(set.images.size());
     ism::parallel_for(set.images.size(), threads,
@@ -95,9 +95,10 @@ struct Counts {
 
 int main(int argc, char** argv) try {
     bench::SetOptions options{.sets = {"sysu-shapes", "weizmann-horses", "msrc", "four-class"}};
-    CLI::App app("How many objects the hypotheses of votes overlap, before and after templates judge them.");
-    options.add_to(app);
-    CLI11_PARSE(app, argc, argv);
+    bench::Options command_line(
+        "How many objects the hypotheses of votes overlap, before and after templates judge them.");
+    options.add_to(command_line);
+    if (const auto code = command_line.parse(argc, argv)) return *code;
 
     std::vector<std::vector<std::string>> cells = {
         {"set", "objects", "hypotheses/image", "any class", "own class", "any of all", "own of all", "told"}};

@@ -18,13 +18,14 @@
 #include <utility>
 #include <vector>
 
+#include "support/data_sets.hpp"
 #include "support/many_classes.hpp"
+#include "support/options.hpp"
 #include "support/photographs.hpp"
 #include "support/program_model.hpp"
 #include "support/real_classes.hpp"
 #include "support/rows.hpp"
 #include "support/toy_classes.hpp"
-#include <CLI/CLI.hpp>
 
 #include "ism/codebook/match.hpp"
 #include "ism/io/write_file.hpp"
@@ -231,19 +232,19 @@ void scale(const bench::ManyClasses& classes, const Settings& settings, const fs
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Time to search a picture, by number of classes"};
+    bench::Options command_line("Time to search a picture, by number of classes");
     Settings settings{.data = bench::data_folder()};
     std::string json, svg = ".", from = "both";
-    app.add_option("--data", settings.data, "folder of the data sets");
-    app.add_option("--from", from, "what classes are made from")
-        ->check(CLI::IsMember({"real", "toys", "both"}));
-    app.add_option("--classes", settings.most, "so many at most")->check(CLI::Range(1, 4096));
-    app.add_option("--rounds", settings.rounds, "times each is measured")->check(CLI::Range(1, 1000));
-    app.add_option("--threads", settings.threads, "of learning and detection");
-    app.add_flag("--judge", settings.judge, "the two models of all classes also learn their judge of boxes");
-    app.add_option("--json", json, "also write the rows to this file");
-    app.add_option("--plots", svg, "folder of the plots class_scaling_real.svg and class_scaling_toys.svg");
-    CLI11_PARSE(app, argc, argv);
+    command_line.add("--data", settings.data, "folder of the data sets");
+    command_line.add("--from", from, "what classes are made from", {"real", "toys", "both"});
+    command_line.add("--classes", settings.most, "so many at most", {1, 4096});
+    command_line.add("--rounds", settings.rounds, "times each is measured", {1, 1000});
+    command_line.add("--threads", settings.threads, "of learning and detection");
+    command_line.add("--judge", settings.judge,
+                     "the two models of all classes also learn their judge of boxes");
+    command_line.add("--json", json, "also write the rows to this file");
+    command_line.add("--plots", svg, "folder of the plots class_scaling_real.svg and class_scaling_toys.svg");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
     try {
         std::vector<bench::Row> rows;
         if (from != "toys")

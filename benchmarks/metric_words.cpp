@@ -14,14 +14,15 @@
 #include <utility>
 #include <vector>
 
+#include "extractors.hpp"
+#include "support/data_sets.hpp"
 #include "support/program_model.hpp"
 #include "support/rows.hpp"
 #include "support/set_options.hpp"
-#include <CLI/CLI.hpp>
 
 #include "ism/cluster/growing_clusters.hpp"
 #include "ism/core/thread_pool.hpp"
-#include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/evaluate/detections.hpp"
 #include "ism/train/learn_metric.hpp"
 #include "ism/train/metric_extractor.hpp"
@@ -149,12 +150,13 @@ struct Found {
 
 int main(int argc, char** argv) try {
     bench::SetOptions options{.sets = {"osd"}};
-    CLI::App app("What features in metres vote through: training features or words of a codebook.");
-    options.add_to(app);
-    CLI11_PARSE(app, argc, argv);
+    bench::Options command_line(
+        "What features in metres vote through: training features or words of a codebook.");
+    options.add_to(command_line);
+    if (const auto code = command_line.parse(argc, argv)) return *code;
 
     for (const std::string& set : options.sets) {
-        const ism::Dataset train = ism::read_dataset(options.data / set / "train.json");
+        const ism::Dataset train = bench::read_set(options.data / set / "train.json");
         constexpr std::size_t parts = 3;
         std::vector<double> ap_of_parts(all_words.size());
         for (std::size_t part = 0; part < parts; ++part) {

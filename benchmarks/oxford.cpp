@@ -18,13 +18,17 @@
 #include <string>
 #include <vector>
 
+#include "support/data_sets.hpp"
+#include "support/options.hpp"
 #include "support/our_features.hpp"
 #include "support/peer_features.hpp"
 #include "support/photographs.hpp"
 #include "support/region_overlap.hpp"
 #include "support/rows.hpp"
-#include <CLI/CLI.hpp>
 #include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include "ism/io/write_file.hpp"
 
 namespace {
 
@@ -196,12 +200,13 @@ void nearest(const Features& from, const Features& to, std::vector<Nearest>& of_
 int main(int argc, char** argv) try {
     fs::path data = bench::data_folder() / "oxford-affine", json;
     std::vector<std::string> only;
-    CLI::App app("Repeatability and matching on the Oxford sequences, ours beside other libraries.");
-    app.add_option("--data", data,
-                   "a sequence, img1 ... img6 and H1to2p ... H1to6p, or a folder of sequences");
-    app.add_option("--json", json, "write the rows to this file");
-    app.add_option("--only", only, "only methods whose name holds one of these");
-    CLI11_PARSE(app, argc, argv);
+    bench::Options command_line(
+        "Repeatability and matching on the Oxford sequences, ours beside other libraries.");
+    command_line.add("--data", data,
+                     "a sequence, img1 ... img6 and H1to2p ... H1to6p, or a folder of sequences");
+    command_line.add("--json", json, "write the rows to this file");
+    command_line.add("--only", only, "only methods whose name holds one of these");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
 
     std::vector<Method> methods = {our_method<ism::DifferenceOfGaussians>("ism DoG"),
                                    our_method<ism::HessianLaplace>("ism Hessian-Laplace"),

@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "support/data_sets.hpp"
 #include "support/program_model.hpp"
 #include "support/rows.hpp"
 #include "support/set_options.hpp"
-#include <CLI/CLI.hpp>
 
 #include "ism/core/thread_pool.hpp"
-#include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/detect/exemplar_segmenter.hpp"
 #include "ism/detect/template_recognition.hpp"
 #include "ism/evaluate/detections.hpp"
@@ -110,13 +110,13 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
 
 int main(int argc, char** argv) try {
     bench::SetOptions options{.sets = {"four-class", "sysu-shapes", "weizmann-horses", "msrc"}};
-    CLI::App app("What each part of the way on colour images brings.");
-    options.add_to(app);
-    CLI11_PARSE(app, argc, argv);
+    bench::Options command_line("What each part of the way on colour images brings.");
+    options.add_to(command_line);
+    if (const auto code = command_line.parse(argc, argv)) return *code;
 
     std::vector<std::vector<std::string>> cells = {{"mean AP %, mean mask IoU %"}};
     for (const std::string& set : options.sets) {
-        const ism::Dataset train = ism::read_dataset(options.data / set / "train.json"),
+        const ism::Dataset train = bench::read_set(options.data / set / "train.json"),
                            test = bench::held_out(options.data / set, train.class_names);
         cells[0].push_back(set), cells[0].push_back("");
         const std::vector<Way> ways = ways_of(train, options.threads);

@@ -15,10 +15,11 @@
 #include <utility>
 #include <vector>
 
+#include "support/data_sets.hpp"
+#include "support/options.hpp"
 #include "support/real_descriptors.hpp"
 #include "support/resident_memory.hpp"
 #include "support/rows.hpp"
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "ism/cluster/cluster.hpp"
@@ -112,15 +113,14 @@ int main(int argc, char** argv) try {
     std::vector<std::size_t> counts = {2000, 10000, 30000};
     std::size_t rounds = 3;
     double similarity = ism::CodebookOptions{}.min_similarity;
-    CLI::App app("Time of average-link clustering, ours beside fastcluster and SciPy.");
-    app.add_option("--data", data, "folder of the real images")->capture_default_str();
-    app.add_option("--python", python, "Python that has numpy, scipy and fastcluster")->capture_default_str();
-    app.add_option("--counts", counts, "numbers of descriptors")->capture_default_str();
-    app.add_option("--rounds", rounds, "measurements of ours, their median counts")
-        ->check(CLI::Range(1, 100));
-    app.add_option("--similarity", similarity, "the cut, as in training")->capture_default_str();
-    app.add_option("--json", json, "write the rows to this file");
-    CLI11_PARSE(app, argc, argv);
+    bench::Options command_line("Time of average-link clustering, ours beside fastcluster and SciPy.");
+    command_line.add("--data", data, "folder of the real images");
+    command_line.add("--python", python, "Python that has numpy, scipy and fastcluster");
+    command_line.add("--counts", counts, "numbers of descriptors");
+    command_line.add("--rounds", rounds, "measurements of ours, their median counts", {1, 100});
+    command_line.add("--similarity", similarity, "the cut, as in training");
+    command_line.add("--json", json, "write the rows to this file");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
 
     const double cut = 2 * (1 - similarity) * Descriptor::sq_length,
                  whole = std::numeric_limits<double>::infinity();

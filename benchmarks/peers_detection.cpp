@@ -18,14 +18,14 @@
 #include <utility>
 #include <vector>
 
+#include "support/data_sets.hpp"
 #include "support/dlib_detector.hpp"
 #include "support/program_model.hpp"
 #include "support/rows.hpp"
 #include "support/set_options.hpp"
-#include <CLI/CLI.hpp>
 
 #include "ism/core/random.hpp"
-#include "ism/dataset/coco.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/evaluate/detections.hpp"
 
 namespace {
@@ -133,23 +133,23 @@ int main(int argc, char** argv) try {
     std::vector<std::size_t> counts = {5, 10, 20, 50};
     std::uint64_t draws = 5;
     bench::DlibOptions dlib_options;
-    CLI::App app(
+    bench::Options command_line(
         "Detection from few examples: templates, votes, and dlib's gradient histograms. One thread searches; "
         "--threads is of learning.");
-    options.add_to(app);
-    app.add_option("--counts", counts, "training images a class")->delimiter(',')->capture_default_str();
-    app.add_option("--draws", draws, "of training images")->capture_default_str();
-    app.add_option("--dlib-cost", dlib_options.cost, "C of dlib's detectors")->capture_default_str();
-    app.add_option("--dlib-epsilon", dlib_options.epsilon, "where dlib's solver ends")->capture_default_str();
-    app.add_option("--csv", csv, "file of the figures of each draw");
-    CLI11_PARSE(app, argc, argv);
+    options.add_to(command_line);
+    command_line.add("--counts", counts, "training images a class");
+    command_line.add("--draws", draws, "of training images");
+    command_line.add("--dlib-cost", dlib_options.cost, "C of dlib's detectors");
+    command_line.add("--dlib-epsilon", dlib_options.epsilon, "where dlib's solver ends");
+    command_line.add("--csv", csv, "file of the figures of each draw");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
     dlib_options.threads = ism::thread_count(options.threads);
 
     std::string lines = "set,images a class,draw,way,mean AP,training s,ms an image\n";
     std::vector<std::vector<std::string>> cells = {
         {"set", "images a class", "way", "mean AP %", "draws", "training s", "ms/image"}};
     for (const std::string& set : options.sets) {
-        const ism::Dataset train = ism::read_dataset(options.data / set / "train.json"),
+        const ism::Dataset train = bench::read_set(options.data / set / "train.json"),
                            val = bench::held_out(options.data / set, train.class_names);
         for (const std::size_t count : counts) {
             std::vector<std::pair<std::string, Sum>> sums;

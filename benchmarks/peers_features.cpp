@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "support/options.hpp"
 #include "support/our_features.hpp"
 #include "support/peer_features.hpp"
 #include "support/photographs.hpp"
 #include "support/rows.hpp"
-#include <CLI/CLI.hpp>
 
 namespace {
 
@@ -66,13 +66,12 @@ int main(int argc, char** argv) try {
     std::vector<std::string> files;
     fs::path json;
     std::size_t rounds = 5;
-    CLI::App app(
+    bench::Options command_line(
         "Time of features, ours beside other libraries. Without images: ten crops of the Oxford set.");
-    app.add_option("--images", files, "photographs to use, whole, or folders of them");
-    app.add_option("--rounds", rounds, "measurements of each image, their median counts")
-        ->check(CLI::Range(1, 1000));
-    app.add_option("--json", json, "write the rows to this file");
-    CLI11_PARSE(app, argc, argv);
+    command_line.add("--images", files, "photographs to use, whole, or folders of them");
+    command_line.add("--rounds", rounds, "measurements of each image, their median counts", {1, 1000});
+    command_line.add("--json", json, "write the rows to this file");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
     const std::vector<ByteImage> images = bench::photographs(files);
 
     using Dog = ism::DifferenceOfGaussians;

@@ -13,10 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "support/data_sets.hpp"
+#include "support/options.hpp"
 #include "support/photographs.hpp"
 #include "support/real_votes.hpp"
 #include "support/rows.hpp"
-#include <CLI/CLI.hpp>
 
 #include "ism/vote/mean_shift.hpp"
 
@@ -173,13 +174,14 @@ int main(int argc, char** argv) try {
     fs::path data = bench::data_folder(), json;
     std::size_t rounds = 9, python_votes = 10000;
     std::vector<std::size_t> counts = {1000, 10000, 100000};
-    CLI::App app("Time of mean shift, ours beside other libraries, on votes cast by a model of osd.");
-    app.add_option("--data", data, "the folder of data sets");
-    app.add_option("--votes", counts, "numbers of votes");
-    app.add_option("--rounds", rounds, "measurements, their median counts")->check(CLI::Range(1, 1000));
-    app.add_option("--python-votes", python_votes, "scikit-learn gets no more votes than this");
-    app.add_option("--json", json, "write the rows to this file");
-    CLI11_PARSE(app, argc, argv);
+    bench::Options command_line(
+        "Time of mean shift, ours beside other libraries, on votes cast by a model of osd.");
+    command_line.add("--data", data, "the folder of data sets");
+    command_line.add("--votes", counts, "numbers of votes");
+    command_line.add("--rounds", rounds, "measurements, their median counts", {1, 1000});
+    command_line.add("--python-votes", python_votes, "scikit-learn gets no more votes than this");
+    command_line.add("--json", json, "write the rows to this file");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
 
     const auto images = bench::osd_votes(data);
     std::size_t total = 0;

@@ -17,11 +17,11 @@
 #include <omp.h>
 #endif
 
-#include "support/isa_option.hpp"
+#include "support/data_sets.hpp"
+#include "support/options.hpp"
 #include "support/peer_search.hpp"
 #include "support/rows.hpp"
 #include "support/search_data.hpp"
-#include <CLI/CLI.hpp>
 
 #include "ism/codebook/nearest_words.hpp"
 
@@ -132,16 +132,16 @@ int main(int argc, char** argv) try {
     std::size_t rounds = 9, wanted = 36500, queries_wanted = 1000;
     std::vector<std::size_t> counts = {1, 9, 64};
     ism::InstructionSet isa = ism::best_instruction_set();
-    CLI::App app("Time to find the nearest of many single descriptors, ours beside other libraries.");
-    app.add_option("--data", data, "folder of the real images");
-    app.add_option("--words", wanted, "number of words")->check(CLI::Range(1000, 40000));
-    app.add_option("--queries", queries_wanted, "number of descriptors to look up")
-        ->check(CLI::Range(12, 100000));
-    app.add_option("--nearest", counts, "how many neighbours of each")->check(CLI::Range(1, 1000));
-    app.add_option("--rounds", rounds, "measurements, their median counts")->check(CLI::Range(1, 1000));
-    bench::add_isa_option(app, isa);
-    app.add_option("--json", json, "write the rows to this file");
-    CLI11_PARSE(app, argc, argv);
+    bench::Options command_line(
+        "Time to find the nearest of many single descriptors, ours beside other libraries.");
+    command_line.add("--data", data, "folder of the real images");
+    command_line.add("--words", wanted, "number of words", {1000, 40000});
+    command_line.add("--queries", queries_wanted, "number of descriptors to look up", {12, 100000});
+    command_line.add("--nearest", counts, "how many neighbours of each", {1, 1000});
+    command_line.add("--rounds", rounds, "measurements, their median counts", {1, 1000});
+    command_line.add("--isa", isa, "instruction set of ours; without, the best there is");
+    command_line.add("--json", json, "write the rows to this file");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
     if (data.empty()) data = bench::data_folder();
 #ifdef _OPENMP
     omp_set_num_threads(1);

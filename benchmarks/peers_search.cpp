@@ -16,11 +16,11 @@
 #include <omp.h>
 #endif
 
-#include "support/isa_option.hpp"
+#include "support/data_sets.hpp"
+#include "support/options.hpp"
 #include "support/peer_search.hpp"
 #include "support/rows.hpp"
 #include "support/search_data.hpp"
-#include <CLI/CLI.hpp>
 
 #include "ism/codebook/build_codebook.hpp"
 #include "ism/codebook/match.hpp"
@@ -115,18 +115,17 @@ int main(int argc, char** argv) try {
     bool fast_only = false;
     ism::InstructionSet isa = ism::best_instruction_set();
     std::vector<std::size_t> sizes = {1000, 7000, 50000};
-    CLI::App app("Time to find all words within the default threshold, ours beside other libraries.");
-    app.add_option("--data", data, "folder of the real images");
-    app.add_option("--words", sizes, "numbers of words; more than were clustered: single descriptors");
-    app.add_option("--queries", queries_wanted, "number of descriptors to look up")
-        ->check(CLI::Range(12, 100000));
-    app.add_option("--clustered", clustered, "number of descriptors to make words of")
-        ->check(CLI::Range(1000, 1000000));
-    app.add_option("--rounds", rounds, "measurements, their median counts")->check(CLI::Range(1, 1000));
-    bench::add_isa_option(app, isa);
-    app.add_flag("--fast-only", fast_only, "leave out the peers that are slow to build or to ask");
-    app.add_option("--json", json, "write the rows to this file");
-    CLI11_PARSE(app, argc, argv);
+    bench::Options command_line(
+        "Time to find all words within the default threshold, ours beside other libraries.");
+    command_line.add("--data", data, "folder of the real images");
+    command_line.add("--words", sizes, "numbers of words; more than were clustered: single descriptors");
+    command_line.add("--queries", queries_wanted, "number of descriptors to look up", {12, 100000});
+    command_line.add("--clustered", clustered, "number of descriptors to make words of", {1000, 1000000});
+    command_line.add("--rounds", rounds, "measurements, their median counts", {1, 1000});
+    command_line.add("--isa", isa, "instruction set of ours; without, the best there is");
+    command_line.add("--fast-only", fast_only, "leave out the peers that are slow to build or to ask");
+    command_line.add("--json", json, "write the rows to this file");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
     if (data.empty()) data = bench::data_folder();
 #ifdef _OPENMP
     omp_set_num_threads(1);

@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "support/data_sets.hpp"
+#include "support/options.hpp"
 #include "support/photographs.hpp"
 #include "support/program_model.hpp"
 #include "support/rows.hpp"
-#include <CLI/CLI.hpp>
 
-#include "ism/dataset/coco.hpp"
 #include "ism/evaluate/detections.hpp"
 #include "ism/io/write_file.hpp"
 #include "ism/show/color.hpp"
@@ -47,8 +47,8 @@ void measure(const fs::path& data, bool judge, const std::string& svg) {
     const std::array choices = {Choice{"occurrences", ism::word_occurrences},
                                 Choice{"information gain", ism::word_information_gain},
                                 Choice{"vote agreement", ism::vote_agreement}};
-    const ism::Dataset train = ism::read_dataset(data / "train.json"),
-                       test = ism::read_dataset(data / "test.json");
+    const ism::Dataset train = bench::read_set(data / "train.json"),
+                       test = bench::read_set(data / "test.json");
     const auto features = bench::features_as_program(train, 0, {.views = judge});
     ism::TrainOptions options{.box_classifier = std::nullopt, .calibrate = false};
     const std::size_t all = program::learn(features, options).words();
@@ -82,13 +82,13 @@ void measure(const fs::path& data, bool judge, const std::string& svg) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Accuracy by number of words, for three ways to choose them"};
+    bench::Options command_line("Accuracy by number of words, for three ways to choose them");
     std::string data = (bench::data_folder() / "four-class").string(), svg = "word_selection.svg";
     bool judge = false;
-    app.add_option("--data", data, "folder with train.json and test.json");
-    app.add_option("--plot", svg, "file of the plot (SVG)");
-    app.add_flag("--judge", judge, "also learn the judge of boxes each time");
-    CLI11_PARSE(app, argc, argv);
+    command_line.add("--data", data, "folder with train.json and test.json");
+    command_line.add("--plot", svg, "file of the plot (SVG)");
+    command_line.add("--judge", judge, "also learn the judge of boxes each time");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
     try {
         measure(data, judge, svg);
     } catch (const std::exception& error) {

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "support/data_sets.hpp"
 
 #include "ism/core/image.hpp"
 #include "ism/io/images.hpp"
@@ -16,12 +17,6 @@
 namespace bench {
 
 using ByteImage = ism::Image<std::uint8_t>;
-
-/// @brief Where the real images are: the environment's ISM_DATA, else the project's ../shared/data.
-[[nodiscard]] inline std::filesystem::path data_folder() {
-    const char* folder = std::getenv("ISM_DATA");
-    return folder != nullptr && *folder != '\0' ? folder : ISM_DEFAULT_DATA;
-}
 
 [[nodiscard]] inline ByteImage read_bytes(const std::filesystem::path& file) {
     const ism::GrayImage gray = ism::to_gray(ism::read_rgb(file));

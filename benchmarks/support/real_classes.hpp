@@ -11,10 +11,10 @@
 
 #include "commands.hpp"
 #include "extractors.hpp"
+#include "support/data_sets.hpp"
 #include "support/many_classes.hpp"
 
 #include "ism/core/thread_pool.hpp"
-#include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/feature/any_extractor.hpp"
 
@@ -32,7 +32,7 @@ namespace bench {
     for (const char* set : {"four-class/train", "msrc/train", "osd/train", "sysu-shapes/train",
                             "weizmann-horses/train", "uiuc-cars/train", "sysu-shapes/val", "msrc/val"}) {
         sets.emplace_back();
-        for (const ism::DatasetImage& image : ism::read_dataset(data / (std::string(set) + ".json")).images)
+        for (const ism::DatasetImage& image : read_set(data / (std::string(set) + ".json")).images)
             for (std::size_t o = 0; o < image.objects.size(); ++o)
                 if (!image.objects[o].crowd) sets.back().emplace_back(image, o);
         longest = std::max(longest, sets.back().size());
@@ -62,7 +62,7 @@ namespace bench {
     }
     for (std::size_t i = 0; i < std::min<std::size_t>(32, result.images.size()); ++i)
         result.checks.push_back(result.images[i]);
-    const ism::Dataset scenes = ism::read_dataset(data / "osd" / "val.json");
+    const ism::Dataset scenes = read_set(data / "osd" / "val.json");
     for (std::size_t i = 0; i < 8; ++i) result.frames.push_back(ism::read_frame(scenes.images.at(i * 5)));
     return result;
 }

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "support/data_sets.hpp"
 #include "support/program_model.hpp"
 
 #include "ism/core/frame.hpp"
 #include "ism/core/random.hpp"
-#include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/detect/hypotheses.hpp"
 #include "ism/vote/cast.hpp"
@@ -29,13 +29,13 @@ using FiveAxesAndClass = ism::VoteSpace<ism::X, ism::Y, ism::Scale, ism::Depth, 
 /// @brief Votes of every class that a model trained on osd/train.json casts in each image of osd/val.json,
 /// with soft matching, in the five axes.
 [[nodiscard]] inline std::vector<std::vector<ism::Vote<5>>> osd_votes(const std::filesystem::path& data) {
-    const ism::Dataset lessons = ism::read_dataset(data / "osd" / "train.json");
+    const ism::Dataset lessons = read_set(data / "osd" / "train.json");
     const ism::Model model = program::learn(features_as_program(lessons, 0, {}),
                                             {.box_classifier = std::nullopt, .calibrate = false});
     ism::ThreadPool pool(0);
     program::Matcher matcher(model, pool);
     std::vector<std::vector<ism::Vote<5>>> votes;
-    for (const ism::DatasetImage& image : ism::read_dataset(data / "osd" / "val.json").images) {
+    for (const ism::DatasetImage& image : read_set(data / "osd" / "val.json").images) {
         const ism::Frame frame = ism::read_frame(image);
         votes.push_back(ism::cast_votes<FiveAxesAndClass>(matcher.scene(frame, "jism"), ism::MatchMode::all,
                                                           {.width = double(frame.gray.width()),

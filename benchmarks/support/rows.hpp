@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <ostream>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "ism/evaluate/table.hpp"
-#include "ism/io/write_file.hpp"
 
 namespace bench {
 
@@ -43,19 +40,7 @@ inline void print(const std::vector<Row>& rows) {
 }
 
 /// @brief Rows as a JSON array of {case, ours, peer, peer_name, unit, ratio, correct, remark}.
-inline void write_json(const std::filesystem::path& path, const std::vector<Row>& rows) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const Row& row : rows)
-        list.push_back({{"case", row.name},
-                        {"ours", row.ours},
-                        {"peer", row.peer},
-                        {"peer_name", row.peer_name},
-                        {"unit", row.unit},
-                        {"ratio", row.peer / row.ours},
-                        {"correct", row.correct},
-                        {"remark", row.remark}});
-    ism::write_file(path, [&](std::ostream& out) { out << list.dump(1) << '\n'; });
-}
+void write_json(const std::filesystem::path& path, const std::vector<Row>& rows);
 
 /// @brief Median milliseconds of each of some functions, called in turn so often: what slows the machine for
 /// a while slows all of them. A first round is not counted.

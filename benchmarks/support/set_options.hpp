@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "support/photographs.hpp"
-#include <CLI/CLI.hpp>
+#include "support/data_sets.hpp"
+#include "support/options.hpp"
 
 namespace bench {
 
@@ -18,13 +18,11 @@ struct SetOptions {
     std::filesystem::path data = data_folder();
     unsigned threads = 0;
 
-    /// @brief The app must not outlive these options.
-    void add_to(CLI::App& app) {
-        app.add_option("--data", data, "folder of the data sets");
-        app.add_option("--sets", sets, "with train.json, and test.json or val.json")
-            ->delimiter(',')
-            ->capture_default_str();
-        app.add_option("--threads", threads, "0 = as many as the machine has");
+    /// @brief The command line must not outlive these options.
+    void add_to(Options& command_line) {
+        command_line.add("--data", data, "folder of the data sets");
+        command_line.add("--sets", sets, "with train.json, and test.json or val.json");
+        command_line.add("--threads", threads, "0 = as many as the machine has");
     }
 };
 
