@@ -87,6 +87,9 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
     other.rescorer.max_classes = 1;
     add("asked about their own class alone", finder(model, other));
     other = recognition;
+    other.rescorer.rival_share = 0;
+    add("classes at one place do not yield", finder(model, other));
+    other = recognition;
     other.options = {}, other.bandwidth = ism::default_bandwidth<ism::Jism>();
     add("hypotheses as votes alone find them", finder(model, other));
     other = recognition;

@@ -17,6 +17,7 @@
 #include "ism/detect/detection.hpp"
 #include "ism/detect/hypotheses.hpp"
 #include "ism/detect/proposals.hpp"
+#include "ism/detect/rivals.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/detect/voted_boxes.hpp"
 #include "ism/hog/fisher_vector.hpp"
@@ -36,7 +37,9 @@ struct TemplateScore {
     std::size_t max_classes = 8;  ///< that are asked about a hypothesis, those of most vote weight there
     double min_agreement =
         VotedBoxes::default_agreement;  ///< IoU of the box that a vote stands for with that of the detection
-    bool explain = false;               ///< also tell which cells of a template speak for and against
+    double rival_share = 0.5;  ///< of the lead of a more probable class at the same place, that a detection
+                               ///< loses, see yield_to_rivals()
+    bool explain = false;      ///< also tell which cells of a template speak for and against
 
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene& scene) const;
 };
@@ -49,6 +52,8 @@ inline void check(const TemplateScore& options) {
     expect(options.max_classes > 0, "TemplateScore::max_classes", "1 or more", 0);
     expect(options.min_agreement >= 0 && options.min_agreement <= 1, "TemplateScore::min_agreement",
            "0 ... 1", options.min_agreement);
+    expect(options.rival_share >= 0 && options.rival_share <= 1, "TemplateScore::rival_share", "0 ... 1",
+           options.rival_share);
 }
 
 inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypotheses,
@@ -119,6 +124,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
         if (scene.frame.camera && is_depth(detection.depth_m))
             detection.position_m = back_project(*scene.frame.camera, detection.centre, detection.depth_m);
     });
+    if (!model.template_calibration.empty()) yield_to_rivals(found, model.template_calibration, rival_share);
     return found;
 }
 

@@ -34,12 +34,19 @@ struct BoxReasons {
     double look = 0;  ///< the template
     double patches = 0, words = 0, votes = 0, colors = 0;
     double any = 0;
+    double rivals = 0;  ///< more probable objects of other classes at the same place
 
     [[nodiscard]] bool empty() const { return look == 0 && any == 0; }
-    [[nodiscard]] double sum() const { return look + patches + words + votes + colors + any; }
+    [[nodiscard]] double sum() const { return look + patches + words + votes + colors + any + rivals; }
     /// @brief Margins in logarithms of odds, by the curve of a class (Calibration).
     [[nodiscard]] BoxReasons in_odds(double slope, double offset) const {
-        return {slope * look, slope * patches, slope * words, slope * votes, slope * colors, offset};
+        return {.look = slope * look,
+                .patches = slope * patches,
+                .words = slope * words,
+                .votes = slope * votes,
+                .colors = slope * colors,
+                .any = offset,
+                .rivals = slope * rivals};
     }
 };
 

@@ -92,6 +92,7 @@ namespace detail {
     add("votes that agree with the box", reasons.votes);
     add("colours shared with what is around", reasons.colors);
     add("any box of the class", reasons.any);
+    add("other classes at the same place", reasons.rivals);
     add("together", reasons.sum());
     return table;
 }
