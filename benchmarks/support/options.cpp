@@ -10,8 +10,10 @@ namespace bench {
 
 namespace {
 
-CLI::Range range_of(Limits limits) {
-    return {limits.least, limits.most};
+void bound(CLI::Option& option, Limits limits) {
+    const Limits none;
+    if (limits.least > none.least || limits.most < none.most)
+        option.check(CLI::Range(limits.least, limits.most));
 }
 
 }  // namespace
@@ -34,7 +36,7 @@ void Options::add(const std::string& name, unsigned& value, const std::string& h
     app_->add_option(name, value, help)->capture_default_str();
 }
 void Options::add(const std::string& name, std::size_t& value, const std::string& help, Limits limits) {
-    app_->add_option(name, value, help)->capture_default_str()->check(range_of(limits));
+    bound(*app_->add_option(name, value, help)->capture_default_str(), limits);
 }
 void Options::add(const std::string& name, ism::InstructionSet& value, const std::string& help) {
     app_->add_option(name, value, help)
@@ -51,7 +53,7 @@ void Options::add(const std::string& name, std::vector<std::string>& values, con
 }
 void Options::add(const std::string& name, std::vector<std::size_t>& values, const std::string& help,
                   Limits limits) {
-    app_->add_option(name, values, help)->delimiter(',')->capture_default_str()->check(range_of(limits));
+    bound(*app_->add_option(name, values, help)->delimiter(',')->capture_default_str(), limits);
 }
 
 std::optional<int> Options::parse(int argc, char** argv) {
