@@ -78,7 +78,8 @@ TEST_CASE("Letters of a font have ink, differ, and stay where they should") {
     RgbImage whole(60, 50);
     const ism::ImageView<Rgb> part = whole.view().region(20, 15, 17, 13);
     for (const double x : {-30.0, -3.5, 4.0, 15.0, 1e9, std::nan("")})
-        for (const double y : {-9.0, 3.0, 11.0}) font.draw(part, x, y, "gj@\xC3\xA9", ism::white, 14);
+        for (const double y : {-9.0, 3.0, 11.0, -1e300, std::nan("")})
+            font.draw(part, x, y, "gj@\xC3\xA9", ism::white, 14);
     CHECK(painted(whole) > 0);
     for (int y = 0; y < whole.height(); ++y)
         for (int x = 0; x < whole.width(); ++x)

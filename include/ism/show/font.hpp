@@ -85,10 +85,12 @@ public:
         return walk(text, line_px, [](const stbtt_fontinfo&, float, int, double) {});
     }
 
-    /// @brief Writes a text whose line has its left upper corner at (x, y); what lies outside is cut off.
+    /// @brief Writes a text whose line has its left upper corner at (x, y); what lies outside is cut off, and
+    /// nothing is written where x or y is not finite.
     void draw(ImageView<Rgb> image, double x, double y, std::string_view text, Rgb color,
               double line_px) const {
-        if (empty()) return;
+        const auto is_near = [](double place) { return std::abs(place) < 1e6; };
+        if (empty() || !is_near(x) || !is_near(y)) return;
         int ascent = 0, descent = 0, gap = 0;
         stbtt_GetFontVMetrics(&faces_[0].info, &ascent, &descent, &gap);
         const int base =
@@ -98,7 +100,7 @@ public:
             const float part = float(x + at - left);
             int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
             stbtt_GetGlyphBitmapBoxSubpixel(&info, glyph, zoom, zoom, part, 0, &x0, &y0, &x1, &y1);
-            if (x1 <= x0 || y1 <= y0 || !(std::abs(left) < 1e6)) return;
+            if (x1 <= x0 || y1 <= y0 || !is_near(left)) return;
             Mask cover(x1 - x0, y1 - y0);
             stbtt_MakeGlyphBitmapSubpixel(&info, cover.pixels().data(), cover.width(), cover.height(),
                                           cover.width(), zoom, zoom, part, 0, glyph);
