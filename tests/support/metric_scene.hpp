@@ -111,8 +111,10 @@ inline View seen(const std::vector<Thing>& things, std::uint64_t seed, int each 
         }
     }
     ism::Random wall(seed + 7);
-    for (int i = 0; i < 15; ++i)
-        add({wall.uniform(5, width - 6), wall.uniform(5, 25)}, 0, 1.6f, 0.01, 10 + wall.index(1000));
+    for (int i = 0; i < 15; ++i) {
+        const ism::Point2 at{wall.uniform(5, width - 6), wall.uniform(5, 25)};
+        add(at, 0, 1.6f, 0.01, 10 + wall.index(900));  // below those of things
+    }
     return view;
 }
 

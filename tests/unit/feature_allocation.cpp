@@ -20,7 +20,14 @@
 #include "ism/feature/sift.hpp"
 
 // The sanitizers bring an operator new of their own.
-#ifndef __SANITIZE_ADDRESS__
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)  // clang
+#define ISM_SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define ISM_SANITIZED
+#endif
+#ifndef ISM_SANITIZED
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"  // new and delete are both replaced here
 
 namespace {

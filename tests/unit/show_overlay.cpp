@@ -13,7 +13,7 @@ using ism::RgbImage;
 
 namespace {
 
-const std::vector<std::string> names{"cup", "bowl"};
+const std::vector<std::string> both_names{"cup", "bowl"};
 constexpr ism::OverlayOptions plain{.side_px = 200, .close_up = false};
 
 // a 100×60 image, a detection with 20×10 figure pixels at (40, 30) in maps of 30×20 that begin at (35, 25)
@@ -44,7 +44,7 @@ ism::Detections some_detections() {
 
 TEST_CASE("The four images show votes, both maps on one scale, and the figure untouched") {
     const RgbImage image = some_picture(), large = ism::magnified(image, 2);
-    const RgbImage row = ism::draw_explanation(image, some_detections(), 0, names, plain);
+    const RgbImage row = ism::draw_explanation(image, some_detections(), 0, both_names, plain);
     const int head = row.height() - 120, step = (row.width() - 200) / 3;
     REQUIRE(head == 0);  // without a font there are no captions
     REQUIRE(step >= 200);
@@ -61,16 +61,16 @@ TEST_CASE("The four images show votes, both maps on one scale, and the figure un
     CHECK(ism::brightness(around) < ism::brightness(image(10, 10)));
     CHECK(panel(0, 5, 55) == ism::mix(large(10, 110), ism::black, 0.4));
     CHECK(panel(0, 40, 35) == ism::class_color(1));  // the box
-    CHECK(row == ism::draw_explanation(image, some_detections(), 0, names, plain));
+    CHECK(row == ism::draw_explanation(image, some_detections(), 0, both_names, plain));
 }
 
 TEST_CASE("Cells of a template are green where they speak for the class, red where against it") {
     ism::Detections detections = some_detections();
     const RgbImage image = some_picture();
-    const RgbImage four = ism::draw_explanation(image, detections, 0, names, plain);
+    const RgbImage four = ism::draw_explanation(image, detections, 0, both_names, plain);
     ism::CellShares& cells = detections.objects[0].cells;
     cells = {{2, 1, false}, {0.5f, -0.25f}};  // the left and the right half of the box
-    const RgbImage five = ism::draw_explanation(image, detections, 0, names, plain);
+    const RgbImage five = ism::draw_explanation(image, detections, 0, both_names, plain);
     REQUIRE(five.width() == four.width() + (four.width() - 200) / 3);
     const auto second = [&](int x, int y) {
         return five((four.width() - 200) / 3 + 2 * x, five.height() - 120 + 2 * y);
@@ -81,7 +81,7 @@ TEST_CASE("Cells of a template are green where they speak for the class, red whe
     CHECK(second(30, 20).r == second(30, 20).g);
     ism::OverlayOptions options = plain;
     options.cells = false;
-    CHECK(ism::draw_explanation(image, detections, 0, names, options) == four);
+    CHECK(ism::draw_explanation(image, detections, 0, both_names, options) == four);
 }
 
 TEST_CASE("A close-up shows the detection and its surroundings as the whole image would") {
@@ -98,8 +98,8 @@ TEST_CASE("A close-up shows the detection and its surroundings as the whole imag
         for (int x = 0; x < cut.width(); ++x) cut(x, y) = image(x + int(part.x), y + int(part.y));
     const ism::Detections there =
         ism::detail::moved_to(detections, detections.objects[0], int(part.x), int(part.y));
-    CHECK(ism::draw_explanation(image, detections, 0, names, {.side_px = 200}) ==
-          ism::draw_explanation(cut, there, 0, names, plain));
+    CHECK(ism::draw_explanation(image, detections, 0, both_names, {.side_px = 200}) ==
+          ism::draw_explanation(cut, there, 0, both_names, plain));
 
     ism::Detections outside = detections;
     outside.objects[0] = {};
@@ -109,15 +109,15 @@ TEST_CASE("A close-up shows the detection and its surroundings as the whole imag
 
 TEST_CASE("All detections are marked in one image, magnified so that labels can be read") {
     const RgbImage image = some_picture();
-    CHECK(ism::draw_detections(image, {}, names, {.side_px = 640}) == ism::magnified(image, 6));
-    CHECK(ism::draw_detections(image, {}, names, {.side_px = 50}) == image);
+    CHECK(ism::draw_detections(image, {}, both_names, {.side_px = 640}) == ism::magnified(image, 6));
+    CHECK(ism::draw_detections(image, {}, both_names, {.side_px = 50}) == image);
 
     ism::Detections detections = some_detections();
     detections.objects.push_back(detections.objects[0]);
     detections.objects[1].class_index = 0;
     detections.objects[1].segmentation = {};
     detections.objects[1].box = {90, 50, 30, 30};  // reaches outside
-    const RgbImage all = ism::draw_detections(image, detections, names, plain);
+    const RgbImage all = ism::draw_detections(image, detections, both_names, plain);
     CHECK(all(2 * 42, 2 * 39 + 1) == ism::class_color(1));  // contour and box
     CHECK(all(2 * 50, 2 * 35) == ism::mix(ism::magnified(image, 2)(100, 70), ism::class_color(1), 0.35));
     CHECK(all(10, 10) == ism::magnified(image, 2)(10, 10));
@@ -125,7 +125,7 @@ TEST_CASE("All detections are marked in one image, magnified so that labels can 
 
 TEST_CASE("Labels evade each other while there is room") {
     RgbImage image(400, 300);
-    const ism::Font font = ism::system_font(names);  // or none: labels without words
+    const ism::Font font = ism::system_font(both_names);  // or none: labels without words
     std::vector<ism::Box> used;
     for (int i = 0; i < 4; ++i)
         ism::detail::draw_label(image, {100, 100, 80, 90}, "cup 0.5", {1, 2, 3}, font, used);
@@ -139,10 +139,11 @@ TEST_CASE("Labels evade each other while there is room") {
     ism::OverlayOptions options = plain;
     options.font = &font;
     const RgbImage picture = some_picture(),
-                   bare = ism::draw_explanation(picture, some_detections(), 0, names, plain);
-    CHECK(ism::draw_explanation(picture, some_detections(), 0, names, options).height() > bare.height() + 12);
-    CHECK_FALSE(ism::draw_detections(picture, some_detections(), names, options) ==
-                ism::draw_detections(picture, some_detections(), names, plain));
+                   bare = ism::draw_explanation(picture, some_detections(), 0, both_names, plain);
+    CHECK(ism::draw_explanation(picture, some_detections(), 0, both_names, options).height() >
+          bare.height() + 12);
+    CHECK_FALSE(ism::draw_detections(picture, some_detections(), both_names, options) ==
+                ism::draw_detections(picture, some_detections(), both_names, plain));
 }
 
 TEST_CASE("Detections without support or mask, at the edge or in the tiniest image can be shown") {
@@ -151,24 +152,24 @@ TEST_CASE("Detections without support or mask, at the edge or in the tiniest ima
     bare.objects[0].centre = {-3, 2}, bare.objects[0].box = {-10, -10, 14, 300};
     for (const bool close_up : {false, true}) {
         const ism::OverlayOptions options{.side_px = 64, .close_up = close_up};
-        CHECK_FALSE(ism::draw_explanation(some_picture(), bare, 0, names, options).empty());
-        CHECK_FALSE(ism::draw_explanation(RgbImage(1, 1), bare, 0, names, options).empty());
-        CHECK_FALSE(ism::draw_detections(RgbImage(1, 1), bare, names, options).empty());
+        CHECK_FALSE(ism::draw_explanation(some_picture(), bare, 0, both_names, options).empty());
+        CHECK_FALSE(ism::draw_explanation(RgbImage(1, 1), bare, 0, both_names, options).empty());
+        CHECK_FALSE(ism::draw_detections(RgbImage(1, 1), bare, both_names, options).empty());
     }
 }
 
 TEST_CASE("Overlays refuse what does not belong together") {
     const RgbImage image = some_picture();
     ism::Detections detections = some_detections();
-    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 1, names), ism::Error);
-    CHECK_THROWS_AS(ism::draw_explanation(RgbImage{}, detections, 0, names), ism::Error);
-    CHECK_THROWS_AS(ism::draw_detections(image, detections, std::span(names).first(1)), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 1, both_names), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(RgbImage{}, detections, 0, both_names), ism::Error);
+    CHECK_THROWS_AS(ism::draw_detections(image, detections, std::span(both_names).first(1)), ism::Error);
     detections.objects[0].support[0].feature = 2;
-    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, names), ism::Error);
-    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, names, plain), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, both_names), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, both_names, plain), ism::Error);
     detections = some_detections();
     detections.objects[0].segmentation.ground = ism::GrayImage(3, 3);
-    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, names), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, both_names), ism::Error);
 }
 
 TEST_CASE("a label tells the probability, or the score where that is not known") {
