@@ -55,8 +55,8 @@ $line "class 'duck' of the model: expected a class of 'toys/goose.json' (car, mu
 $line "class to select: expected one of: car, mug, duck, robot, got 'goose'" \
     "$ism" train --data toys/train.json -o out --class goose
 $line "similarity" "$ism" train --data toys/train.json -o out --similarity -1
-$line "codebook" "$ism" train --data toys/train.json -o out --min-cluster-size 1000000
-$line "least information gain" "$ism" train --data toys/train.json -o out --min-information-gain 5
+$line "codebook" "$ism" train --data toys/train.json -o out --class car --min-cluster-size 1000000
+$line "least information gain" "$ism" train --data toys/train.json -o out --class car --min-information-gain 5
 
 # Nowhere to write to.
 $line "'nowhere/out': expected an existing folder" "$ism" train --data toys/train.json -o nowhere/out
@@ -64,7 +64,7 @@ $line "'toys': expected a file to write, got a folder" "$ism" train --data toys/
 cp toys/train.json copy.json
 $line "expected another file than an input" "$ism" train --data copy.json -o copy.json
 cmp toys/train.json copy.json || fail "an input was written over"
-$line "'/dev/full'" "$ism" train --data toys/train.json -o /dev/full --no-templates
+$line "'/dev/full'" "$ism" train --data toys/train.json -o /dev/full --class car --no-templates
 $line "'nowhere/report.html'" "$ism" detect --model $model --data toys/test.json -o out --report nowhere/report.html
 $line "folder 'copy.json': expected a folder, got a file" \
     "$ism" detect --model $model --data toys/test.json -o out --overlay copy.json

@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
 
 # Depth is learnt where images have it, and used where model, image and camera know of it.
 make_toys
-"$ism" train --data toys/train.json -o model --no-templates --threads 2 >train.txt
+make_plain_model model
 says "depth        of 24 images: " train.txt
 "$ism" info model >info.txt
 says "depth           " info.txt

@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
 
 # Every command from the folder of the data, with bare file names; the same as from outside.
 make_toys
-"$ism" train --data toys/train.json -o model --no-templates >/dev/null
+make_plain_model model
 "$ism" detect --model model --data toys/test.json -o found.json --report report.html --overlay overlay >/dev/null
 cd toys
 "$ism" train --data train.json -o m.safetensors --no-templates >/dev/null

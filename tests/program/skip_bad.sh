@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
 
 # Bad images are all named, and --skip-bad goes on without them.
 make_toys
-"$ism" train --data toys/train.json -o whole --no-templates >/dev/null
+make_plain_model whole
 cp -r toys bad
 rm bad/train/train-0000.png
 head -c 3000 toys/train/train-0001.png >bad/train/train-0001.png

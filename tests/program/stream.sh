@@ -7,22 +7,22 @@ source "$(dirname "${BASH_SOURCE[0]}")/support.bash"
 stream=$(dirname "$ism")/06_stream
 [[ -x $stream ]] || { echo "skipped: $stream is not built"; exit 77; }
 make_toys
-"$ism" train --data toys/train.json -o model --no-templates --threads 2 >/dev/null
+make_plain_model model
 objects() { grep -E '^[0-9]+:' "$1"; }
 
-"$stream" model 12 2 >toys.txt
-(($(objects toys.txt | wc -l) == 12)) || fail "not a line a frame: $(cat toys.txt)"
+"$stream" model 8 2 >toys.txt
+(($(objects toys.txt | wc -l) == 8)) || fail "not a line a frame: $(cat toys.txt)"
 says "latency   p50 " toys.txt
 says "reading " toys.txt
 # Of the toys that are followed each keeps its identity, and positions scatter less than in single frames.
 read -r followed identities < <(sed -nE 's/^toys .* followed ([0-9]+) by ([0-9]+) identities$/\1 \2/p' toys.txt)
 ((followed >= 4 && identities == followed)) || fail "identities: $(grep ^toys toys.txt)"
 ids() { grep "^$1:" toys.txt | grep -oE '#[0-9]+ [a-z]+' | sort; }
-[[ -n $(ids 4) && -z $(comm -23 <(ids 4) <(ids 12)) ]] || fail "an identity is lost: $(cat toys.txt)"
+[[ -n $(ids 4) && -z $(comm -23 <(ids 4) <(ids 8)) ]] || fail "an identity is lost: $(cat toys.txt)"
 sed -nE 's/^scatter .* ([0-9.]+) mm, smoothed ([0-9.]+) mm$/\1 \2/p' toys.txt >scatter.txt
 awk 'NF == 2 && $1 > 0 && $2 < 0.8 * $1 { fine = 1 } END { exit !fine }' scatter.txt ||
     fail "smoothing does not smooth: $(grep ^scatter toys.txt)"
-"$stream" model 12 1 >one.txt
+"$stream" model 8 1 >one.txt
 cmp <(objects toys.txt) <(objects one.txt) || fail "other objects on one thread"
 
 mkdir frames

@@ -20,6 +20,16 @@ make_toys() {
     fi
 }
 
+# The model `$1` of these toys, without templates, and in train.txt what its training told.
+make_plain_model() {
+    if [[ -e ../toys/plain ]]; then
+        cp ../toys/train.txt train.txt
+        cp ../toys/plain "$1"
+    else
+        "$ism" train --data toys/train.json -o "$1" --no-templates --threads 2 >train.txt
+    fi
+}
+
 # Sets `data` to the folder of the real images. Where they are missing the test is skipped, with CI set it fails.
 need_data() {
     data=${ISM_DATA:-$here/../../../shared/data}

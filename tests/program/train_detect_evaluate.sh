@@ -55,7 +55,7 @@ says "test-0000.png: missed: " missed.html
 # Only what is probable; and the paper's way, votes alone, of a model without templates.
 "$ism" detect --model model-1 --data toys/test.json -o probable --space ji3sm3 --min-score 0.5 >/dev/null
 (($(grep -c image_id probable) <= $(grep -c image_id found-1))) || fail "--min-score tells more"
-"$ism" train --data toys/train.json -o plain --no-templates >/dev/null
+make_plain_model plain
 "$ism" info plain >plain.txt
 says "templates       no" plain.txt
 "$ism" detect --model plain --data toys/test.json -o found-plain --rescore none --verify mdl >/dev/null
@@ -80,14 +80,14 @@ says "classes      robot, duck" own.txt
 "$ism" detect --model own --data toys/test.json -o found-own >/dev/null
 
 # Objects that are turned in the image, learnt from upright ones: by votes and words, which turn.
-"$ism" train --data toys/train.json -o free --orientation free >free.txt
+"$ism" train --data toys/train.json -o free --orientation free --class car --class mug >free.txt
 says "orientation  free (" free.txt
 says "templates    no" free.txt
 "$ism" info free >info.txt
 says "orientation     free" info.txt
 "$ism" detect --model free --data toys/test.json -o found-free >/dev/null
 says '"bbox"' found-free
-"$ism" train --data toys/train.json -o told --orientation upright --no-templates >told.txt
+"$ism" train --data toys/train.json -o told --orientation upright --class car --no-templates >told.txt
 grep -qx "orientation  upright" told.txt || fail "--orientation upright: $(cat told.txt)"
 
 # One image without a data set: number 1, classes numbered as in the training file.
@@ -98,4 +98,4 @@ grep -F '"image_id":1,' found-single | sed 's/,$//' >single
 cmp expected single || fail "one image is not detected as the same image of a data set"
 
 # A model written to what is no file.
-"$ism" train --data toys/train.json -o /dev/null --no-templates >/dev/null
+"$ism" train --data toys/train.json -o /dev/null --class car --no-templates >/dev/null
