@@ -7,12 +7,12 @@ cmake_minimum_required(VERSION 3.22)
 #   header | headers of ours it may reach | libraries it may reach (of those below)
 set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "iostream" "regex")
 set(budget
-    "ism.hpp                    | 145 | "
+    "ism.hpp                    | 146 | "
     "vote/axes.hpp              |  17 | "
-    "detect/detect.hpp          | 100 | "
+    "detect/detect.hpp          | 101 | "
     "train/train_options.hpp    |   6 | "
     "train/training_image.hpp   |  10 | "
-    "train/train.hpp            | 133 | "
+    "train/train.hpp            | 134 | "
     "evaluate/evaluate.hpp      |  10 | "
     "core/frame.hpp             |   8 | "
     "feature/hessian_laplace.hpp|  27 | "

@@ -183,6 +183,55 @@ TEST_CASE("objects are cut out to the pixel by exemplars of other colours") {
         }
 }
 
+TEST_CASE("the box of a figure leaves out what lies beyond its sides") {
+    ism::Segmentation part;
+    CHECK(ism::figure_box(part, 0.05).area() == 0);
+    part.x = 7, part.y = 11, part.figure = ism::GrayImage(20, 10);
+    CHECK(ism::figure_box(part, 0.05).area() == 0);
+    for (int y = 2; y < 6; ++y)
+        for (int x = 4; x < 14; ++x) part.figure(x, y) = 0.5f;
+    const ism::Box whole = ism::figure_box(part, 0);
+    CHECK(whole.x == 11);
+    CHECK(whole.y == 13);
+    CHECK(whole.width == 10);
+    CHECK(whole.height == 4);
+    const ism::Box inner = ism::figure_box(part, 0.05);  // half a column of ten, a fifth of a row of four
+    CHECK(inner.x == Approx(11.5));
+    CHECK(inner.width == Approx(9));
+    CHECK(inner.y == Approx(13.2));
+    CHECK(inner.height == Approx(3.6));
+    part.figure(19, 9) = 0.1f;  // a stray pixel, half a percent of all
+    CHECK(ism::figure_box(part, 0.01).width == Approx(9.8).margin(0.1));
+    const ism::Box between = ism::box_between({0, 0, 10, 20}, {4, 2, 2, 4}, 0.75);
+    CHECK(between.x == 3);
+    CHECK(between.y == 1.5);
+    CHECK(between.width == 4);
+    CHECK(between.height == 8);
+}
+
+TEST_CASE("what was cut out says where an object lies whose box was off") {
+    for (const std::uint64_t seed : {21, 22, 23, 24}) {
+        CAPTURE(seed);
+        const auto image = animal_picture(seed, true, 70, 30);
+        const ism::Box truth = image.objects[0].box;
+        for (const ism::Box& box : {ism::Box{truth.x + 10, truth.y - 6, truth.width, truth.height},
+                                    {truth.x - 5, truth.y - 4, truth.width * 1.15, truth.height * 1.1},
+                                    {truth.x + 8, truth.y + 6, truth.width * 0.85, truth.height * 0.9}}) {
+            const auto part = cut_out(animals(), image.frame, box);
+            REQUIRE(part.box.has_value());
+            CHECK(ism::iou(*part.box, truth) > ism::iou(box, truth) + 0.05);
+        }
+        const auto exact = cut_out(animals(), image.frame, truth);
+        REQUIRE(exact.box.has_value());
+        CHECK(ism::iou(*exact.box, truth) > 0.93);
+        ism::ExemplarSegmenter still;
+        still.placing = 0;
+        const auto unmoved = cut_out(animals(), image.frame, truth, still);
+        REQUIRE(unmoved.box.has_value());
+        CHECK(ism::iou(*unmoved.box, truth) == Approx(1));
+    }
+}
+
 TEST_CASE("masks lie within the picture, wherever the box is, and grey pictures have some too") {
     const auto image = animal_picture(31, true, 5, 70);
     ism::Frame gray = image.frame;
@@ -227,6 +276,7 @@ TEST_CASE("labels without masks are no exemplars, and their class is cut out by 
     const auto got = ism::ExemplarSegmenter{}.segment(hypothesis, scene);
     CHECK(got.mask == by_votes.mask);
     CHECK(got.figure == by_votes.figure);
+    CHECK_FALSE(got.box.has_value());
 }
 
 TEST_CASE("exemplars are the same for any number of threads, and of many every second or third is taken") {
@@ -257,6 +307,8 @@ TEST_CASE("what exemplars cannot be learnt or used with is refused by name") {
     error("ExemplarOptions::sharpness", {.exemplars = {.sharpness = -1}});
     error("ExemplarOptions::shift_cost", {.exemplars = {.shift_cost = 3}});
     error("ExemplarOptions::agreement", {.exemplars = {.agreement = std::nan("")}});
+    error("ExemplarSegmenter::placing", {.placing = 1.5});
+    error("ExemplarSegmenter::outside", {.outside = -0.1});
     error("ExemplarSegmenter::margin", {.margin = -1});
     error("ExemplarSegmenter::max_side_px", {.max_side_px = 2});
     error("ExemplarSegmenter::color_rounds", {.color_rounds = -1});

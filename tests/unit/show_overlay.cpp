@@ -69,7 +69,7 @@ TEST_CASE("Cells of a template are green where they speak for the class, red whe
     const RgbImage image = some_picture();
     const RgbImage four = ism::draw_explanation(image, detections, 0, both_names, plain);
     ism::CellShares& cells = detections.objects[0].cells;
-    cells = {{2, 1, false}, {0.5f, -0.25f}};  // the left and the right half of the box
+    cells = {{2, 1, false}, detections.objects[0].box, {0.5f, -0.25f}};  // the box's left and right half
     const RgbImage five = ism::draw_explanation(image, detections, 0, both_names, plain);
     REQUIRE(five.width() == four.width() + (four.width() - 200) / 3);
     const auto second = [&](int x, int y) {

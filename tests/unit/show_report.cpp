@@ -319,7 +319,7 @@ TEST_CASE("The section on an image tells why each detection was found") {
     CHECK(contains(html, "d=\"M25 5l10 0 0 7 -10 0z\""));
     CHECK(contains(html, "aria-label=\"a.png, 3 detections"));
     CHECK_FALSE(contains(html, "against"));
-    for (ism::Detection& one : detections.objects) one.cells = {{2, 1, false}, {0.5f, -0.25f}};
+    for (ism::Detection& one : detections.objects) one.cells = {{2, 1, false}, one.box, {0.5f, -0.25f}};
     const std::string with_cells = html_of(pages_of());
     CHECK(markup_fault(with_cells).empty());
     CHECK(contains(with_cells, "template, score 0.25"));

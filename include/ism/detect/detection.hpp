@@ -42,6 +42,8 @@ struct Segmentation {
     GrayImage figure;  ///< p(figure), ≥ 0; by votes that which they carry, 0 where no patch reaches
     GrayImage ground;  ///< p(ground), ≥ 0
     Mask mask;         ///< 1 where figure outweighs ground
+    std::optional<Box> box =
+        {};  ///< where the object lies by what was cut out; none: where it was seen before
 };
 
 /// @brief The mask of a segmentation at image resolution; what reaches outside the image is cut off.

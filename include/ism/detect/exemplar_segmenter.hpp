@@ -14,6 +14,7 @@
 #include "ism/core/guided_filter.hpp"
 #include "ism/core/resize_area.hpp"
 #include "ism/detect/exemplar_prior.hpp"
+#include "ism/detect/figure_box.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/detect/segment.hpp"
 
@@ -21,7 +22,8 @@ namespace ism {
 
 /// @brief Cuts an object out by its box: the masks of training objects that look like it part by part give a
 /// prior, histograms of figure and ground tell what the colours of this picture say, and a guided filter
-/// brings the result to the edges of the picture. Where the model has no exemplar of the class (its labels
+/// brings the result to the edges of the picture. What was cut out also says where the object lies: templates
+/// see it in coarse cells, wherever its legs are. Where the model has no exemplar of the class (its labels
 /// have no masks) votes cut it out.
 struct ExemplarSegmenter {
     ExemplarOptions exemplars = {};
@@ -33,6 +35,8 @@ struct ExemplarSegmenter {
     double max_log_ratio = 3;     ///< what a colour can say
     double filter_radius = 0.02;  ///< in parts of the root of the box's area
     double filter_epsilon = 1e-4;  ///< variance of brightness (0 … 1) that is no edge
+    double placing = 0.7;          ///< how far the sides of a box go to those of what was cut out …
+    double outside = 0.005;        ///< … beyond each of which so much of the figure lies, see figure_box()
     PatchSegmenter votes = {};     ///< for classes without exemplars
 
     [[nodiscard]] Segmentation segment(const Detection& hypothesis, const Scene& scene) const;
@@ -54,6 +58,8 @@ inline void check(const ExemplarSegmenter& options) {
     in_range("ExemplarSegmenter::max_log_ratio", options.max_log_ratio, 0, 100, "0 ... 100");
     in_range("ExemplarSegmenter::filter_radius", options.filter_radius, 0, 1, "0 ... 1");
     in_range("ExemplarSegmenter::filter_epsilon", options.filter_epsilon, 1e-9, 1e3, "1e-9 ... 1e3");
+    in_range("ExemplarSegmenter::placing", options.placing, 0, 1, "0 ... 1");
+    in_range("ExemplarSegmenter::outside", options.outside, 0, 0.25, "0 ... 0.25");
 }
 
 inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, const Scene& scene) const {
@@ -152,6 +158,8 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
             result.figure(x, y) = p, result.ground(x, y) = 1 - p;
             result.mask(x, y) = p > 0.5f;
         }
+    if (const Box cut_out = figure_box(result, outside); cut_out.area() > 0)
+        result.box = box_between(box, cut_out, placing);
     return result;
 }
 

@@ -19,6 +19,7 @@
 #include "ism/detect/mask_candidates.hpp"
 #include "ism/detect/mask_cues.hpp"
 #include "ism/detect/metric.hpp"
+#include "ism/detect/move_to.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/model/mask_judge.hpp"
 
@@ -140,9 +141,7 @@ inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hyp
             detection.class_index = c;
             detection.score = std::exp(logit);
             detection.probability = 1 / (1 + std::exp(-logit));
-            detection.box = box_of(regions[i]);
-            detection.centre = detection.box.centre();
-            detection.scale = std::sqrt(detection.box.area()) / reference_size_px;
+            move_to(detection, box_of(regions[i]), {});
             detection.segmentation.x = regions[i].x, detection.segmentation.y = regions[i].y;
             detection.segmentation.mask = regions[i].mask;
             detection.reasons = mask_reasons(judge, cues, looks[c]);

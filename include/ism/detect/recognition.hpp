@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/hypotheses.hpp"
+#include "ism/detect/move_to.hpp"
 #include "ism/detect/rescore.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/detect/segment.hpp"
@@ -65,6 +67,8 @@ template <Rescorer R, Segmenter S, Verifier V>
     const auto segment = [&](std::vector<Detection>& detections) {
         scene.pool.for_each(detections.size(), [&](std::size_t i, unsigned) {
             detections[i].segmentation = segmenter.segment(detections[i], scene);
+            if (const std::optional<Box> box = detections[i].segmentation.box)
+                move_to(detections[i], *box, scene.frame.camera);
         });
         stats.segmented = detections.size();
         stats.segment_ms = watch.lap_ms();

@@ -16,6 +16,7 @@
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/hypotheses.hpp"
+#include "ism/detect/move_to.hpp"
 #include "ism/detect/proposals.hpp"
 #include "ism/detect/rivals.hpp"
 #include "ism/detect/scene.hpp"
@@ -119,10 +120,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
             detection.angle = described.angle, detection.depth_m = described.depth_m;
             detection.support = described.support;
         }
-        detection.centre = detection.box.centre();
-        detection.scale = std::sqrt(detection.box.area()) / reference_size_px;
-        if (scene.frame.camera && is_depth(detection.depth_m))
-            detection.position_m = back_project(*scene.frame.camera, detection.centre, detection.depth_m);
+        move_to(detection, detection.box, scene.frame.camera);
     });
     if (!model.template_calibration.empty()) yield_to_rivals(found, model.template_calibration, rival_share);
     return found;

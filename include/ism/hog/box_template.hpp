@@ -31,6 +31,7 @@ struct BoxGrid {
 /// bias shared among them: above 0 a cell speaks for the class, and all together they are the score.
 struct CellShares {
     BoxGrid grid = {};
+    Box box = {};  ///< that it judged, pixels of the image
     std::vector<float> shares = {};
     [[nodiscard]] bool operator==(const CellShares&) const = default;
 };

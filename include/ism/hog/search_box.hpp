@@ -47,7 +47,7 @@ public:
         const std::span<const float> cells = described(pyramid, box, scratch);
         const std::span<const float> weights = mirrored ? mirrored_ : template_->weights;
         const double rest = template_->bias - template_->aspect_penalty(box);
-        CellShares result{template_->grid, {}};
+        CellShares result{template_->grid, box, {}};
         for (std::size_t i = 0; i < cells.size(); i += cell_numbers)
             result.shares.push_back(
                 float(dot(cells.subspan(i, cell_numbers), weights.subspan(i, cell_numbers)) +

@@ -89,7 +89,8 @@ namespace detail {
         mask_area(part.mask) > 0 ? "segmentation" : "no segmentation"};
     const bool cells = options.cells && !detection.cells.shares.empty();
     if (cells) {
-        panels.insert(panels.begin() + 1, cells_panel(large, detection.cells, box));
+        panels.insert(panels.begin() + 1,
+                      cells_panel(large, detection.cells, magnified(detection.cells.box, factor)));
         captions.insert(captions.begin() + 1, "template");
     }
     RgbImage row = captioned_row(panels, captions, font);

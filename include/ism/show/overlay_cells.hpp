@@ -15,7 +15,7 @@ namespace ism::detail {
 
 /// The cells of a detection's template over its grey image.
 /// @param large  the magnified image
-/// @param box    of the detection, magnified
+/// @param box    that the template judged, magnified
 [[nodiscard]] inline RgbImage cells_panel(RgbImage large, const CellShares& cells, const Box& box) {
     for (Rgb& pixel : large.pixels()) pixel = mix(grey_color(brightness(pixel)), white, 0.25);
     for (std::size_t i = 0; i < cells.shares.size(); ++i) {

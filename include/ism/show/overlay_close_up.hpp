@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "ism/detect/detection.hpp"
 
@@ -46,9 +47,10 @@ namespace ism::detail {
                                          int y) {
     Detections result{.objects = {detection}, .features = detections.features};
     Detection& object = result.objects.front();
-    object.box.x -= x, object.box.y -= y;
+    for (Box* box : {&object.box, &object.cells.box}) box->x -= x, box->y -= y;
     object.centre.x -= x, object.centre.y -= y;
     object.segmentation.x -= x, object.segmentation.y -= y;
+    if (std::optional<Box>& box = object.segmentation.box) box->x -= x, box->y -= y;
     for (Feature& f : result.features) f.x -= float(x), f.y -= float(y);
     return result;
 }

@@ -119,7 +119,7 @@ private:
     detail::OpacitySteps good, bad;
     double score = 0;
     for (std::size_t i = 0; i < cells.shares.size(); ++i) {
-        const Box cell = intersection(cells.grid.cell(detection.box, i), part);
+        const Box cell = intersection(cells.grid.cell(cells.box, i), part);
         score += double(cells.shares[i]);
         if (!(cell.area() > 0)) continue;
         (cells.shares[i] > 0 ? good : bad)
@@ -128,7 +128,7 @@ private:
     std::string shapes = detail::svg_veil(part, white, 0.55);
     shapes +=
         good.svg("fill", detail::for_color, 0.85, "") + bad.svg("fill", detail::against_color, 0.85, "");
-    shapes += svg_box(detection.box, "fill=\"none\" stroke=\"#000\" stroke-width=\"2\"");
+    shapes += svg_box(cells.box, "fill=\"none\" stroke=\"#000\" stroke-width=\"2\"");
     return {.caption = join_text("template, score ", number_text(score, 3),
                                  ": green cells speak for the class, red ones against it"),
             .picture = std::move(picture),
