@@ -30,7 +30,7 @@ if(WAY STREQUAL "include_path")
 
 elseif(WAY STREQUAL "single_header")
     # One header, the same whenever and wherever it is made, stands for ism/ism.hpp and all it includes. Two sources that both
-    # train and detect, all of it for this very processor.
+    # detect, all of it for this very processor.
     file(MAKE_DIRECTORY "${SCRATCH}/single/ism" "${SCRATCH}/elsewhere")
     step("make" "${ISM_SOURCE}/scripts/amalgamate" "${SCRATCH}/single/ism/ism.hpp")
     execute_process(COMMAND "${ISM_SOURCE}/scripts/amalgamate" WORKING_DIRECTORY "${SCRATCH}/elsewhere" RESULT_VARIABLE result)

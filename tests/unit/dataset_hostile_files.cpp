@@ -203,12 +203,13 @@ TEST_CASE("Results with anything changed are measured or refused in one line") {
     CHECK(outcome.refused > 1000);
 }
 
-TEST_CASE("JSON nested a million deep is refused or read, without the stack") {
-    const std::string deep(1000000, '[');
-    CHECK(error_message<FileError>([&] { (void)dataset_of(deep); })
-              .starts_with(
-                  "file 'a.json': expected well-formed JSON, got parse error at line 1, column 1000001"));
-    CHECK(error_message<FileError>([&] { (void)dataset_of(deep + std::string(1000000, ']')); }) ==
+TEST_CASE("JSON nested 200000 deep is refused or read, without the stack") {
+    const std::string deep(200000, '[');
+    CHECK(
+        error_message<FileError>([&] {
+            (void)dataset_of(deep);
+        }).starts_with("file 'a.json': expected well-formed JSON, got parse error at line 1, column 200001"));
+    CHECK(error_message<FileError>([&] { (void)dataset_of(deep + std::string(200000, ']')); }) ==
           "file 'a.json': expected an object, got an array of 1");
 }
 

@@ -69,8 +69,7 @@ TEMPLATE_TEST_CASE("after the first frames of a size nothing is allocated", "", 
     for (const unsigned threads : {1u, 2u})
         for (const auto& [upsampling, space_bytes, region] :
              {std::tuple{1.0, all_at_once, std::optional<ism::Region>{}},
-              {1.5, all_at_once, {}},
-              {1.0, all_at_once, ism::Region{33, 20, 250, 190}},
+              {1.5, all_at_once, ism::Region{33, 20, 250, 190}},
               {1.5, in_bands, ism::Region{33, 20, 250, 190}}}) {
             CAPTURE(threads, upsampling, space_bytes, region.has_value());
             ism::Extractor<TestType, ism::RootSift> settings;

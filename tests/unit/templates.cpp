@@ -144,7 +144,7 @@ TEST_CASE("of many classes those with most vote weight at a place are asked") {
 TEST_CASE("cues join templates at the weights that tell right from wrong best") {
     // boxes whose odds of being right are exp(4 · margin of all cues), of two classes that differ in how
     // often they are: the weights are found again
-    const auto learnt = [](const ism::CueWeights& weights, int boxes = 2000) {
+    const auto learnt = [](const ism::CueWeights& weights, int boxes = 1000) {
         ism::Random random(1);
         std::vector<ism::detail::JudgedBox> judged;
         for (int i = 0; i < boxes; ++i) {
