@@ -65,7 +65,8 @@ refused_in_a_line "--segment exemplars: expected a model with exemplars, got one
     "$ism" detect --model plain --data toys/test.json -o out --segment exemplars
 "$ism" detect --model model-1 --data toys/test.json -o found-patches --space ji3sm3 --segment patches >/dev/null
 ! cmp -s found-patches found-1 || fail "--segment changes nothing"
-cmp <(grep -o '"bbox":[^]]*' found-patches) <(grep -o '"bbox":[^]]*' found-1) || fail "--segment changes boxes"
+cmp <(grep -o '"probability":[^,]*' found-patches) <(grep -o '"probability":[^,]*' found-1) || fail "--segment changes what is found"
+! cmp -s <(grep -o '"bbox":[^]]*' found-patches) <(grep -o '"bbox":[^]]*' found-1) || fail "boxes do not follow what was cut out"
 ! cmp -s found-plain found-1 || fail "templates change nothing"
 
 # One class alone, and a class's own words.
