@@ -11,7 +11,7 @@ namespace ism {
 /// @brief What is asked of votes that only propose, for templates to judge: weak hypotheses too, of any size
 /// that the image holds.
 [[nodiscard]] inline DetectOptions proposal_options() {
-    return {.min_relative_score = 0.01, .max_candidates = 60, .max_size_px = 1e6};
+    return {.min_relative_score = 0.01, .max_candidates = 150, .max_size_px = 1e6};
 }
 
 /// @brief The bandwidth of votes that only propose: narrower than where votes decide, so that neighbours stay

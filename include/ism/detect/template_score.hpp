@@ -33,7 +33,7 @@ namespace ism {
 /// template's margin with what the other cues are worth, see CueWeights; the support are the votes of the
 /// class that agree with the box that was found.
 struct TemplateScore {
-    std::size_t max_proposals = 60;          ///< hypotheses that are asked, the strongest
+    std::size_t max_proposals = 150;         ///< hypotheses that are asked, the strongest
     std::size_t max_boxes = searched_boxes;  ///< of a class that are placed by searching
     std::size_t max_classes = 8;  ///< that are asked about a hypothesis, those of most vote weight there
     double min_agreement =
