@@ -14,6 +14,7 @@
 #include <exception>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,10 +25,6 @@
 #include "support/set_options.hpp"
 
 #include "ism/core/random.hpp"
-#include "ism/core/thread_pool.hpp"
-#include "ism/dataset/read_images.hpp"
-#include "ism/detect/exemplar_segmenter.hpp"
-#include "ism/detect/template_recognition.hpp"
 #include "ism/evaluate/detections.hpp"
 
 namespace {
@@ -81,20 +78,6 @@ struct Figures {
     for (const ism::DatasetImage& image : set.images)
         (learnt.contains(&image) ? known : unknown).images.push_back(image);
     return {std::move(known), std::move(unknown)};
-}
-
-[[nodiscard]] std::vector<ism::Detections> search(const ism::Model& model, const ism::Dataset& set,
-                                                  unsigned threads) {
-    const auto recognition = ism::template_recognition<ism::Jism>(ism::ExemplarSegmenter{});
-    std::vector<ism::Detections> found(set.images.size());
-    ism::parallel_for(set.images.size(), threads, [&](std::size_t i) {
-        ism::ThreadPool one(1);
-        const ism::Frame frame = ism::read_frame(set.images[i]);
-        found[i] = ism::recognise(program::Matcher(model, one).scene(frame, "jism"), recognition);
-        for (ism::Detection& object : found[i].objects) object.support.clear();
-        found[i].features.clear();
-    });
-    return found;
 }
 
 [[nodiscard]] Figures figures_of(const ism::Dataset& set, std::span<const ism::Detections> found) {
@@ -154,7 +137,8 @@ int main(int argc, char** argv) try {
             auto [known, unknown] = halves(set, draw);
             const ism::Model model = bench::learn_as_program(known, options.threads);
             unknown.images.insert(unknown.images.end(), photographs.begin(), photographs.end());
-            const Figures one = figures_of(unknown, search(model, unknown, options.threads));
+            const Figures one = figures_of(
+                unknown, bench::find_as_program(model, unknown, bench::all_by_templates(), options.threads));
             const double share = 1 / double(draws);
             mean.ap += share * one.ap, squares += share * one.ap * one.ap;
             mean.found += share * one.found;
