@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <string>
 #include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "commands.hpp"
 #include "input.hpp"
@@ -314,9 +319,19 @@ int tell_first_steps(const std::string& program) {
     return 2;
 }
 
+/// The memory of one image serves the next: what is given back to the system comes back to be cleared, page
+/// by page, which took a tenth of training.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, std::numeric_limits<int>::max());
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    keep_freed_memory();
     CLI::App app(
         "Implicit Shape Models: find, cut out and place objects of many classes in colour and depth "
         "images.",

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -79,7 +80,7 @@ public:
     /// @throws Error for a frame that check(Frame) refuses.
     [[nodiscard]] Scene scene(const Frame& frame, MatchWords* match_words = match_within) {
         check(frame);
-        Scene scene{.frame = frame, .model = model_, .pool = pool_};
+        Scene scene{.frame = frame, .model = model_, .pool = pool_, .memory = memory_};
         for (Channel& channel : channels_) {
             Stopwatch watch;
             const FeatureSet<float>& found = channel.extract(frame);
@@ -107,6 +108,7 @@ private:
     const Model& model_;
     ThreadPool& pool_;
     std::vector<Channel> channels_;
+    std::shared_ptr<FrameMemory> memory_ = std::make_shared<FrameMemory>();
 };
 
 }  // namespace ism

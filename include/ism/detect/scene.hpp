@@ -16,6 +16,13 @@
 namespace ism {
 
 struct Surface;
+class HogPyramid;
+
+/// @brief Large memory that policies of detection keep from one frame to the next: new memory is cleared by
+/// the system, page by page, which takes longer than much of what is done with it.
+struct FrameMemory {
+    std::shared_ptr<HogPyramid> pyramid = {};  ///< of the last frame; none before the first
+};
 
 /// @brief A frame with its features and the words they look like: all that hypotheses are found, judged and
 /// cut out from, and what every policy of detection sees. FrameMatcher makes it.
@@ -29,6 +36,8 @@ struct Scene {
     /// Where there are depth and camera and the vote space, or a policy, asks for them (add_surface()):
     std::shared_ptr<const Surface> surface = {};         ///< points and normals
     std::vector<std::optional<LocalFrame>> frames = {};  ///< of the features
+    /// That of the scenes before, by the same FrameMatcher.
+    std::shared_ptr<FrameMemory> memory = std::make_shared<FrameMemory>();
 };
 
 /// @brief Adds surface and local frames to a scene: in ism/detect/surface_scene.hpp, which a vote space with

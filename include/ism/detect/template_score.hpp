@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -66,7 +67,9 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
         if (proposals.size() < max_proposals) proposals.push_back({hypothesis.class_index, hypothesis.box});
     const FrameColors colors(scene.frame);
     const RgbImage& color = colors.image();
-    const HogPyramid pyramid(color, finest_level(proposals), scene.pool);
+    if (!scene.memory->pyramid) scene.memory->pyramid = std::make_shared<HogPyramid>();
+    HogPyramid& pyramid = *scene.memory->pyramid;
+    pyramid.assign(color, finest_level(proposals), scene.pool);
     const CueWeights& weights = model.cue_weights;
     const bool with_patches = weights.patches > 0 && !model.patch_classifier.empty(),
                with_words = weights.words > 0 && !model.box_classifier.empty(),

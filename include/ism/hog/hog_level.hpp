@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include "ism/core/vector.hpp"
@@ -20,8 +21,12 @@ inline constexpr std::size_t hog_sums = 24;        ///< directions, three means 
 /// four of them give the sum over any rectangle (Viola and Jones 2001; for gradients Porikli 2005).
 struct HogLevel {
     int width = 0, height = 0;  ///< pixels of the level
-    std::vector<float> sums;  ///< (width + 1) · (height + 1) times hog_sums numbers, or more: detail::HogSums
+    std::span<float> sums;      ///< count(width, height) numbers: detail::HogSums
 
+    /// @brief How many numbers a level has: hog_sums for each corner of a pixel.
+    [[nodiscard]] static std::size_t count(int width, int height) {
+        return std::size_t(width + 1) * std::size_t(height + 1) * hog_sums;
+    }
     [[nodiscard]] const float* at(int x, int y) const {
         return sums.data() + (std::size_t(y) * std::size_t(width + 1) + std::size_t(x)) * hog_sums;
     }
@@ -76,18 +81,16 @@ struct HogRow {
     }
 };
 
-/// One level from its colours, three numbers a pixel, in the memory of another.
-inline void fill_level(HogLevel& level, const std::vector<float>& rgb, int width, int height) {
+/// One level, whose size is set and whose sums are uninitialised, from its colours, three numbers a pixel.
+inline void fill_level(HogLevel& level, const std::vector<float>& rgb) {
     // Each direction gets as much as a gradient is near it; behind the last comes the first.
     constexpr float none = 99;
     static constexpr HogSums directions = {{{0, 1, 2, 3, 4, 5, 6, 7},
                                             {9, 10, 11, 12, 13, 14, 15, 16},
                                             {8, 17, none, none, none, none, none, none}}};
     static constexpr EightFloats behind_last = {18, 1, 2, 3, 4, 5, 6, 7};
-    level.width = width, level.height = height;
+    const int width = level.width, height = level.height;
     const std::size_t row_numbers = std::size_t(width + 1) * hog_sums;
-    const std::size_t numbers = row_numbers * std::size_t(height + 1);
-    if (level.sums.size() < numbers) level.sums = std::vector<float>(numbers);  // nothing to keep
     std::fill_n(level.sums.begin(), row_numbers, 0.0f);
     HogRow row(width);
     for (int y = 0; y < height; ++y) {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
+#include <memory>
 #include <vector>
 
 #include "ism/core/image.hpp"
@@ -30,13 +30,16 @@ public:
     void assign(ImageView<const Rgb> color, int first, ThreadPool& pool) {
         first_ = std::clamp(first, finest, coarsest), width_ = color.width(), height_ = color.height();
         while (first_<coarsest&& double(width_) * height_ * std::exp2(-first_)> max_pixels) ++first_;
-        std::vector<float> image;
-        image.reserve(std::size_t(width_) * std::size_t(height_) * 3);
+        image_.clear();
+        image_.reserve(std::size_t(width_) * std::size_t(height_) * 3);
         for (int y = 0; y < height_; ++y)
             for (const Rgb c : color.row(y))
-                image.insert(image.end(), {c.r / 255.0f, c.g / 255.0f, c.b / 255.0f});
+                image_.insert(image_.end(), {c.r / 255.0f, c.g / 255.0f, c.b / 255.0f});
         std::vector<std::vector<float>> images;
-        std::vector<std::pair<int, int>> sizes;
+        std::size_t numbers = 0;
+        const auto level = [&](std::size_t i) -> HogLevel& {
+            return levels_[std::size_t(first_ - finest) + i];
+        };
         for (int k = first_; k <= coarsest; ++k) {
             const double step = std::exp2(k / 2.0);
             const int w = std::max(2, int(std::lround(width_ / step))),
@@ -45,16 +48,27 @@ public:
             const std::size_t i = images.size();
             if (i >= 2 && k >= 2)
                 images.push_back(
-                    resize_area(images[i - 2], sizes[i - 2].first, sizes[i - 2].second, 3, w, h));
+                    resize_area(images[i - 2], level(i - 2).width, level(i - 2).height, 3, w, h));
             else
-                images.push_back(resize_area(image, width_, height_, 3, w, h));
-            sizes.emplace_back(w, h);
+                images.push_back(resize_area(image_, width_, height_, 3, w, h));
+            level(i).width = w, level(i).height = h;
+            numbers += HogLevel::count(w, h);
         }
         last_ = first_ + int(images.size()) - 1;
-        pool.for_each(images.size(), [&](std::size_t i, unsigned) {
-            detail::fill_level(levels_[std::size_t(first_ - finest) + i], images[i], sizes[i].first,
-                               sizes[i].second);
-        });
+        if (memory_size_ < numbers) {
+            memory_.reset();  // before there is more
+            memory_size_ =
+                numbers + numbers / 2;  // larger images may follow; what is not used takes no memory
+            memory_ = std::make_unique_for_overwrite<float[]>(memory_size_);
+        }
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < images.size(); ++i) {
+            const std::size_t count = HogLevel::count(level(i).width, level(i).height);
+            level(i).sums = {memory_.get() + begin, count};
+            begin += count;
+        }
+        pool.for_each(images.size(),
+                      [&](std::size_t i, unsigned) { detail::fill_level(level(i), images[i]); });
     }
 
     [[nodiscard]] int width() const { return width_; }
@@ -67,6 +81,9 @@ public:
 
 private:
     int first_ = 0, last_ = 0, width_ = 0, height_ = 0;
+    std::vector<float> image_;         // its colours, 0 … 1
+    std::unique_ptr<float[]> memory_;  // the sums of all levels
+    std::size_t memory_size_ = 0;
     std::array<HogLevel, coarsest - finest + 1> levels_;  // those from first_ to last_
 };
 
