@@ -113,6 +113,26 @@ TEST_CASE("templates judge and place what votes propose") {
     }
 }
 
+TEST_CASE("a detector finds the same whatever frames it saw before") {
+    const TypedModel& model = model_with_templates();
+    const ism::Frame whole = pattern_picture(0, 20, 30, 95).frame;
+    ism::Frame part{.gray = ism::GrayImage(120, 130)};  // the upper left of another
+    const ism::Frame other = pattern_picture(1, 15, 25, 96).frame;
+    for (int y = 0; y < part.gray.height(); ++y)
+        for (int x = 0; x < part.gray.width(); ++x) part.gray(x, y) = other.gray(x, y);
+    ism::FrameDetector used(model, 2);
+    const Recognition recognition = ism::template_recognition();
+    for (const ism::Frame* frame : {&whole, &part, &whole}) {
+        const auto found = used.detect(*frame, recognition), first = ism::detect(model, *frame, recognition);
+        REQUIRE_FALSE(found.objects.empty());
+        REQUIRE(found.objects.size() == first.objects.size());
+        for (std::size_t i = 0; i < found.objects.size(); ++i) {
+            CHECK(found.objects[i].box == first.objects[i].box);
+            CHECK(found.objects[i].score == first.objects[i].score);
+        }
+    }
+}
+
 TEST_CASE("of many classes those with most vote weight at a place are asked") {
     ism::ShapeModel shapes{.class_names = {"a", "b", "c", "d"}, .objects = {}};
     std::vector<ism::Occurrence> word(4);

@@ -15,7 +15,7 @@
 namespace ism {
 
 /// @brief Finds, cuts out and places the objects of one frame after another with one model, with the same
-/// threads and the same memory for features. One frame at a time; for several at once make several.
+/// threads and the same memory. One frame at a time; for several at once make several.
 class FrameDetector {
 public:
     /// @param model    is referred to, so it has to stay as long as this
