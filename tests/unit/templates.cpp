@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -122,7 +123,7 @@ TEST_CASE("a detector finds the same whatever frames it saw before") {
         for (int x = 0; x < part.gray.width(); ++x) part.gray(x, y) = other.gray(x, y);
     ism::FrameDetector used(model, 2);
     const Recognition recognition = ism::template_recognition();
-    for (const ism::Frame* frame : {&whole, &part, &whole}) {
+    for (const ism::Frame* frame : std::initializer_list<const ism::Frame*>{&whole, &part, &whole}) {
         const auto found = used.detect(*frame, recognition), first = ism::detect(model, *frame, recognition);
         REQUIRE_FALSE(found.objects.empty());
         REQUIRE(found.objects.size() == first.objects.size());

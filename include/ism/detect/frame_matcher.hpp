@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -80,7 +79,7 @@ public:
     /// @throws Error for a frame that check(Frame) refuses.
     [[nodiscard]] Scene scene(const Frame& frame, MatchWords* match_words = match_within) {
         check(frame);
-        Scene scene{.frame = frame, .model = model_, .pool = pool_, .memory = memory_};
+        Scene scene{.frame = frame, .model = model_, .pool = pool_, .memory = &memory_};
         for (Channel& channel : channels_) {
             Stopwatch watch;
             const FeatureSet<float>& found = channel.extract(frame);
@@ -108,7 +107,7 @@ private:
     const Model& model_;
     ThreadPool& pool_;
     std::vector<Channel> channels_;
-    std::shared_ptr<FrameMemory> memory_ = std::make_shared<FrameMemory>();
+    FrameMemory memory_;
 };
 
 }  // namespace ism

@@ -36,8 +36,7 @@ struct Scene {
     /// Where there are depth and camera and the vote space, or a policy, asks for them (add_surface()):
     std::shared_ptr<const Surface> surface = {};         ///< points and normals
     std::vector<std::optional<LocalFrame>> frames = {};  ///< of the features
-    /// That of the scenes before, by the same FrameMatcher.
-    std::shared_ptr<FrameMemory> memory = std::make_shared<FrameMemory>();
+    FrameMemory* memory = nullptr;                       ///< of the FrameMatcher that made this
 };
 
 /// @brief Adds surface and local frames to a scene: in ism/detect/surface_scene.hpp, which a vote space with

@@ -67,8 +67,10 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
         if (proposals.size() < max_proposals) proposals.push_back({hypothesis.class_index, hypothesis.box});
     const FrameColors colors(scene.frame);
     const RgbImage& color = colors.image();
-    if (!scene.memory->pyramid) scene.memory->pyramid = std::make_shared<HogPyramid>();
-    HogPyramid& pyramid = *scene.memory->pyramid;
+    FrameMemory own;
+    FrameMemory& memory = scene.memory ? *scene.memory : own;
+    if (!memory.pyramid) memory.pyramid = std::make_shared<HogPyramid>();
+    HogPyramid& pyramid = *memory.pyramid;
     pyramid.assign(color, finest_level(proposals), scene.pool);
     const CueWeights& weights = model.cue_weights;
     const bool with_patches = weights.patches > 0 && !model.patch_classifier.empty(),
