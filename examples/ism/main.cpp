@@ -319,8 +319,8 @@ int tell_first_steps(const std::string& program) {
     return 2;
 }
 
-/// The memory of one image serves the next: what is given back to the system comes back to be cleared, page
-/// by page, which took a tenth of training.
+/// The memory of one image serves the next: what is returned to the system has to be cleared again, page by
+/// page.
 void keep_freed_memory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, std::numeric_limits<int>::max());

@@ -56,10 +56,11 @@ public:
         }
         last_ = first_ + int(images.size()) - 1;
         if (memory_size_ < numbers) {
-            memory_.reset();  // before there is more
-            memory_size_ =
-                numbers + numbers / 2;  // larger images may follow; what is not used takes no memory
-            memory_ = std::make_unique_for_overwrite<float[]>(memory_size_);
+            memory_.reset(), memory_size_ = 0;  // given back before there is more
+            const std::size_t size =
+                numbers + numbers / 2;  // room for larger images; untouched, it costs nothing
+            memory_ = std::make_unique_for_overwrite<float[]>(size);
+            memory_size_ = size;
         }
         std::size_t begin = 0;
         for (std::size_t i = 0; i < images.size(); ++i) {
