@@ -5,22 +5,22 @@ cmake_minimum_required(VERSION 3.22)
 # What a header costs whoever includes it, without a clock: the headers of ours it reaches, and the libraries among them.
 # A header that comes to reach more than its line says makes every program that includes it slower to compile.
 #   header | headers of ours it may reach | libraries it may reach (of those below)
-set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "iostream" "regex")
+set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "iostream" "memory" "regex")
 set(budget
-    "ism.hpp                    | 146 | "
+    "ism.hpp                    | 147 | "
     "vote/axes.hpp              |  17 | "
-    "detect/detect.hpp          | 101 | "
-    "train/train_options.hpp    |   6 | "
+    "detect/detect.hpp          | 102 | "
+    "train/train_options.hpp    |   7 | "
     "train/training_image.hpp   |  10 | "
-    "train/train.hpp            | 134 | "
+    "train/train.hpp            | 135 | "
     "evaluate/evaluate.hpp      |  10 | "
     "core/frame.hpp             |   8 | "
-    "feature/hessian_laplace.hpp|  27 | "
-    "feature/sift.hpp           |  24 | "
+    "feature/hessian_laplace.hpp|  28 | "
+    "feature/sift.hpp           |  25 | "
     "dataset/dataset.hpp        |  13 | "
     "dataset/coco.hpp           |  19 | nlohmann/"
-    "io/images.hpp              |  12 | stb/"
-    "model_file/model_file.hpp  |  66 | nlohmann/"
+    "io/images.hpp              |  12 | stb/ memory"
+    "model_file/model_file.hpp  |  67 | nlohmann/"
 )
 set(errors "")
 

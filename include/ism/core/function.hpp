@@ -3,10 +3,10 @@
 #pragma once
 
 #include <concepts>
-#include <memory>
 #include <utility>
 
 #include "ism/core/error.hpp"
+#include "ism/core/shared.hpp"
 
 namespace ism {
 
@@ -21,7 +21,8 @@ public:
     Function() = default;
     template <std::invocable<Arguments...> F>
     requires(!std::same_as<F, Function>) Function(F function)
-        : function_(new F(std::move(function))), call_([](void* what, Arguments... arguments) -> R {
+        : function_(Shared<void>::make<F>(std::move(function))),
+          call_([](void* what, Arguments... arguments) -> R {
               return (*static_cast<F*>(what))(std::forward<Arguments>(arguments)...);
           }) {}
 
@@ -33,7 +34,7 @@ public:
     }
 
 private:
-    std::shared_ptr<void> function_;
+    Shared<void> function_;
     R (*call_)(void* what, Arguments... arguments) = nullptr;
 };
 

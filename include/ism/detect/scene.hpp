@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "ism/codebook/codebook.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/local_frame.hpp"
+#include "ism/core/shared.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/model/model.hpp"
@@ -21,7 +21,7 @@ class HogPyramid;
 /// @brief Large memory that policies of detection keep from one frame to the next: new memory is cleared by
 /// the system, page by page, which takes longer than much of what is done with it.
 struct FrameMemory {
-    std::shared_ptr<HogPyramid> pyramid = {};  ///< of the last frame; none before the first
+    Shared<HogPyramid> pyramid = {};  ///< of the last frame; none before the first
 };
 
 /// @brief A frame with its features and the words they look like: all that hypotheses are found, judged and
@@ -34,7 +34,7 @@ struct Scene {
     std::vector<Match> matches = {};      ///< all words within the threshold, by feature
     double extract_ms = 0, match_ms = 0;  ///< what it took to find features and matches
     /// Where there are depth and camera and the vote space, or a policy, asks for them (add_surface()):
-    std::shared_ptr<const Surface> surface = {};         ///< points and normals
+    Shared<const Surface> surface = {};                  ///< points and normals
     std::vector<std::optional<LocalFrame>> frames = {};  ///< of the features
     FrameMemory* memory = nullptr;                       ///< of the FrameMatcher that made this
 };

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "ism/core/error.hpp"
+#include "ism/core/shared.hpp"
 #include "ism/depth/local_frame.hpp"
 #include "ism/depth/surface.hpp"
 #include "ism/detect/scene.hpp"
@@ -29,7 +29,7 @@ inline void add_surface(Scene& scene) {
     expect(!scene.frame.depth_m.empty(), "depth image", "one, since the vote space uses depth", "none");
     expect(scene.frame.camera.has_value(), "camera", "one, since the vote space is in metres", "none");
     scene.surface =
-        std::make_shared<const Surface>(surface_of(scene.frame.depth_m, *scene.frame.camera, scene.pool));
+        Shared<const Surface>::make(surface_of(scene.frame.depth_m, *scene.frame.camera, scene.pool));
     scene.frames = local_frames(*scene.surface, scene.features);
 }
 

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "ism/core/frame.hpp"
 #include "ism/core/frame_colors.hpp"
+#include "ism/core/shared.hpp"
 #include "ism/detect/asked_proposals.hpp"
 #include "ism/detect/color_overlap.hpp"
 #include "ism/detect/detect_options.hpp"
@@ -69,7 +69,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     const RgbImage& color = colors.image();
     FrameMemory own;
     FrameMemory& memory = scene.memory ? *scene.memory : own;
-    if (!memory.pyramid) memory.pyramid = std::make_shared<HogPyramid>();
+    if (!memory.pyramid) memory.pyramid = Shared<HogPyramid>::make();
     HogPyramid& pyramid = *memory.pyramid;
     pyramid.assign(color, finest_level(proposals), scene.pool);
     const CueWeights& weights = model.cue_weights;

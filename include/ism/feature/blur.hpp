@@ -18,7 +18,7 @@ namespace ism {
 
 namespace detail {
 
-inline constexpr int unrolled_radius = 16;
+inline constexpr int unrolled_radius = 11;  // no detector's default options blur with a larger one
 
 /// Two rows of blurred columns, one below the other. `rows` are the 2 · radius + 2 rows around them. With
 /// Radius > 0 the tap loops have a fixed length, so that the compiler can unroll and vectorise them.

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "ism/core/callable.hpp"
 #include "ism/core/image.hpp"
 #include "ism/core/order.hpp"
+#include "ism/core/shared.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/feature/feature.hpp"
 #include "ism/feature/gaussian_kernel.hpp"
@@ -37,7 +37,7 @@ class Workspace {
 public:
     /// @brief With this many threads, the caller's included (0 = all hardware threads).
     explicit Workspace(unsigned threads = 1)
-        : own_(std::make_unique<ThreadPool>(threads)), pool_(own_.get()), rows_(pool_->size()) {}
+        : own_(Shared<ThreadPool>::make(threads)), pool_(own_.get()), rows_(pool_->size()) {}
 
     /// @brief With threads that others use too, between frames.
     /// @param pool  has to stay as long as this
@@ -125,7 +125,7 @@ public:
     }
 
 private:
-    std::unique_ptr<ThreadPool> own_;
+    Shared<ThreadPool> own_;
     ThreadPool* pool_;
     std::vector<AlignedVector<float>> rows_;
     std::vector<std::vector<Feature>> lists_, spare_;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +15,7 @@
 #include "ism/core/frame_colors.hpp"
 #include "ism/core/order.hpp"
 #include "ism/core/progress.hpp"
+#include "ism/core/shared.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/feature/any_extractor.hpp"
 #include "ism/feature/depth.hpp"
@@ -170,13 +170,13 @@ private:
 
     const std::size_t most = std::max<std::size_t>(30, options.max_features / sizes_px.size());
     ThreadPool pool(unsigned(std::min<std::size_t>(thread_count(threads), set.size)));
-    std::vector<std::unique_ptr<detail::TrainingExtractor>> workers(pool.size());
+    std::vector<Shared<detail::TrainingExtractor>> workers(pool.size());
     std::vector<TrainingFeatures> parts(set.size);
     ProgressCounter counter(progress, "extracting features", set.size);
     pool.for_each(set.size, [&](std::size_t i, unsigned worker) {
         TrainingImage image = set.image(i);
         check(image, classes);
-        if (!workers[worker]) workers[worker] = std::make_unique<detail::TrainingExtractor>(extractors);
+        if (!workers[worker]) workers[worker] = Shared<detail::TrainingExtractor>::make(extractors);
         if (options.views || !image.objects.empty()) {
             TrainingView view = workers[worker]->view(image);
             parts[i] = detail::object_features(image, view, most);
