@@ -57,9 +57,10 @@ add_executable(header_check EXCLUDE_FROM_ALL ${sources})
 set_target_properties(header_check PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${test_build_dir}/headers")
 target_link_libraries(header_check PRIVATE ism_dev_options)
 target_compile_options(header_check PRIVATE -O0)
-# What most of the time would go to, read once; that each includes what it names of it is check_standard_includes' to say.
+# What most of the time would go to, read once; that each includes what it names of it is for check_standard_includes and,
+# of JSON, check_includes to say.
 target_precompile_headers(header_check PRIVATE <algorithm> <array> <cmath> <filesystem> <functional> <fstream> <map> <memory> <optional> <span> <string>
-                          <thread> <variant> <vector>)
+                          <thread> <variant> <vector> <nlohmann/json.hpp>)
 
 # All that fail are told, not the first alone.
 set(keep_going "")

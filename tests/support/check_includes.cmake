@@ -20,6 +20,10 @@ foreach(header IN LISTS headers)
         list(APPEND errors "${header}: expected the two SPDX lines first, and #pragma once")
     endif()
 
+    if(content MATCHES "nlohmann::" AND NOT content MATCHES "\n#include <nlohmann/json.hpp>\n")
+        list(APPEND errors "${header}: names nlohmann:: and does not include <nlohmann/json.hpp>")
+    endif()
+
     string(REGEX MATCH "^[^/]+/" folder "${header}")
     string(REPLACE "/" "" folder "${folder}")
     list(FIND stations "${folder}" own)
