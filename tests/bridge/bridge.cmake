@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 
 # ism/adapt/NAME.hpp beside the real library: tests/bridge/NAME.cpp, one program each. Where the library is not installed
-# (scripts/install_dependencies bridges) the test is told as skipped.
+# (scripts/install_dependencies bridge-tests) the test is told as skipped.
 add_custom_target(bridge_tests)
 add_dependencies(tested bridge_tests)
 function(ism_bridge_test name package)
@@ -26,6 +26,12 @@ find_package(Eigen3 QUIET)
 ism_bridge_test(eigen Eigen3 Eigen3::Eigen)
 set(PCL_FIND_QUIETLY ON)
 find_package(PCL QUIET COMPONENTS common)
+file(GLOB pcl_headers "${PROJECT_SOURCE_DIR}/build/pcl/usr/include/pcl-*") # of scripts/install_dependencies bridge-tests
+if(NOT PCL_FOUND AND pcl_headers AND Eigen3_FOUND AND NOT CMAKE_DISABLE_FIND_PACKAGE_PCL)
+    get_target_property(eigen_headers Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+    set(PCL_INCLUDE_DIRS ${pcl_headers} ${eigen_headers})
+    set(PCL_FOUND TRUE)
+endif()
 ism_bridge_test(pcl PCL ${PCL_LIBRARIES})
 
 add_test(NAME bridge/absent COMMAND "${CMAKE_COMMAND}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DINCLUDE=${PROJECT_SOURCE_DIR}/include"
