@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <type_traits>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -79,6 +80,9 @@ TEMPLATE_TEST_CASE("features are the same bits for any threads, and whatever was
         check_same(own, extractor.extract(image.view()));
     }
 }
+
+// A copy would share the threads, and a workspace is for one frame at a time.
+static_assert(!std::is_copy_constructible_v<ism::Workspace> && std::is_move_constructible_v<ism::Workspace>);
 
 TEST_CASE("an image of 8 bits gives what its brightness gives") {
     ism::Image<std::uint8_t> bytes(101, 77);

@@ -43,6 +43,9 @@ public:
     /// @param pool  has to stay as long as this
     explicit Workspace(ThreadPool& pool) : pool_(&pool), rows_(pool.size()) {}
 
+    Workspace(Workspace&&) = default;
+    Workspace& operator=(Workspace&&) = default;
+
     [[nodiscard]] ThreadPool& pool() { return *pool_; }
     /// @brief Threads of the pool, the caller's among them.
     [[nodiscard]] std::size_t threads() const { return pool_->size(); }
