@@ -218,10 +218,22 @@ TEST_CASE("patches tell classes apart wherever in the box they lie") {
     for (std::uint32_t i = 0; i < 16; ++i) pixels.push_back(stripes(i % 2, box, random));
     for (std::uint32_t i = 0; i < 16; ++i)
         images.push_back({.color = pixels[i], .labels = {{i % 2, box}}, .proposals = {{1 - i % 2, box}}});
-    const std::vector<std::vector<ism::Box>> taken(images.size(), {other, corner});
     ism::PyramidWorkers one(1), two(2);
     const auto mixture = ism::fit_patch_mixture(ism::detail::sampled_patches(images, one));
-    const auto classifier = ism::fit_patch_classifier(images, taken, mixture, 2, one);
+    const auto fitted = [&](ism::PyramidWorkers& workers) {
+        const ism::detail::PatchDescriber describer(mixture, images, 2);
+        std::vector<ism::detail::PatchRows> parts(2 * images.size());
+        workers.for_each(images.size(), [&](std::size_t i, ism::HogPyramid& pyramid) {
+            ism::ThreadPool single(1);
+            pyramid.assign(pixels[i], ism::HogPyramid::finest, single);
+            parts[2 * i] = describer.objects(i, pyramid);
+            parts[2 * i + 1] = describer.others(i, std::vector{other, corner}, 1, pyramid);
+        });
+        std::vector<const ism::detail::PatchRows*> rows;
+        for (const auto& part : parts) rows.push_back(&part);
+        return ism::detail::fit_patch_classifier(rows, mixture, 2, workers.pool());
+    };
+    const ism::PatchClassifier classifier = fitted(one);
     const ism::FisherEncoder encoder(classifier.mixture);
     ism::CellScratch scratch;
     ism::ThreadPool pool(1);
@@ -233,5 +245,5 @@ TEST_CASE("patches tell classes apart wherever in the box they lie") {
         CHECK(own > classifier.margin(i % 2, encoder.encode(pyramid, corner, scratch)) + 0.5);
     }
     CHECK(mixture == ism::fit_patch_mixture(ism::detail::sampled_patches(images, two)));
-    CHECK(classifier == ism::fit_patch_classifier(images, taken, mixture, 2, two));
+    CHECK(classifier == fitted(two));
 }

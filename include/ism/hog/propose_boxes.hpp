@@ -49,39 +49,57 @@ inline constexpr std::size_t searched_boxes = 12;
     return kept;
 }
 
-/// @brief The boxes of a class, best first, that a template finds from proposals: each is asked at its own
-/// place in three sizes, those of other classes with the aspect of this; the best that are apart are then
-/// searched.
+/// @brief The boxes of a class, best first, that each of several templates finds from proposals: each is
+/// asked at its own place in three sizes, those of other classes with the aspect of this; the best that are
+/// apart are then searched.
+/// @param scorers    of the class, whose templates have grid and aspect in common
 /// @param max_count  boxes that are searched, and told
-[[nodiscard]] inline std::vector<SearchedBox> propose_boxes(const TemplateScorer& scorer,
-                                                            std::uint32_t class_index,
-                                                            const HogPyramid& pyramid,
-                                                            std::span<const ProposedBox> proposals,
-                                                            std::size_t max_count, ThreadPool& pool) {
+/// @return of each template
+[[nodiscard]] inline std::vector<std::vector<SearchedBox>> propose_boxes(
+    std::span<const TemplateScorer* const> scorers, std::uint32_t class_index, const HogPyramid& pyramid,
+    std::span<const ProposedBox> proposals, std::size_t max_count, ThreadPool& pool) {
+    if (scorers.empty()) return {};
     constexpr std::array factors{0.8, 1.1, 1.5};
     std::vector<CellScratch> scratch(pool.size());
-    std::vector<SearchedBox> starts(proposals.size() * factors.size());
+    std::vector<std::vector<SearchedBox>> boxes(scorers.size(),
+                                                std::vector<SearchedBox>(proposals.size() * factors.size()));
     pool.for_each(proposals.size(), [&](std::size_t i, unsigned worker) {
         const ProposedBox& proposal = proposals[i];
         double width = proposal.box.width, height = proposal.box.height;
         const double x = proposal.box.x + width / 2, y = proposal.box.y + height / 2;
         if (proposal.class_index != class_index) {
             const double side = std::sqrt(width * height),
-                         root = std::exp(scorer.box_template().log_aspect / 2);
+                         root = std::exp(scorers[0]->box_template().log_aspect / 2);
             width = side * root, height = side / root;
         }
         for (std::size_t k = 0; k < factors.size(); ++k) {
             const double w = factors[k] * width, h = factors[k] * height;
             const Box box{x - w / 2, y - h / 2, w, h};
-            const auto score = scorer(pyramid, box, scratch[worker]);
-            starts[i * factors.size() + k] = {box, score.value, score.mirrored};
+            const std::span<const float> cells = scorers[0]->describe(pyramid, box, scratch[worker]);
+            for (std::size_t s = 0; s < scorers.size(); ++s) {
+                const auto score = scorers[s]->score(cells, box);
+                boxes[s][i * factors.size() + k] = {box, score.value, score.mirrored};
+            }
         }
     });
-    starts = best_apart(std::move(starts), max_count);
-    pool.for_each(starts.size(), [&](std::size_t i, unsigned worker) {
-        starts[i] = search_box(scorer, pyramid, starts[i], scratch[worker]);
-    });
-    return best_apart(std::move(starts), max_count);  // some have come together
+    for (std::size_t s = 0; s < scorers.size(); ++s) {
+        std::vector<SearchedBox> starts = best_apart(std::move(boxes[s]), max_count);
+        pool.for_each(starts.size(), [&](std::size_t i, unsigned worker) {
+            starts[i] = search_box(*scorers[s], pyramid, starts[i], scratch[worker]);
+        });
+        boxes[s] = best_apart(std::move(starts), max_count);  // some have come together
+    }
+    return boxes;
+}
+
+/// @brief Those of one template.
+[[nodiscard]] inline std::vector<SearchedBox> propose_boxes(const TemplateScorer& scorer,
+                                                            std::uint32_t class_index,
+                                                            const HogPyramid& pyramid,
+                                                            std::span<const ProposedBox> proposals,
+                                                            std::size_t max_count, ThreadPool& pool) {
+    const TemplateScorer* const one[] = {&scorer};
+    return std::move(propose_boxes(one, class_index, pyramid, proposals, max_count, pool)[0]);
 }
 
 /// @brief The finest level of a pyramid that templates of about `cells` cells need for these boxes.

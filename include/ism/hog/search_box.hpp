@@ -29,22 +29,29 @@ public:
         : template_(&from), mirrored_(mirrored_cells(from.weights, from.grid)) {}
 
     [[nodiscard]] const BoxTemplate& box_template() const { return *template_; }
-    /// @brief Judges a box on the side that fits better.
-    [[nodiscard]] Score operator()(const HogPyramid& pyramid, const Box& box, CellScratch& scratch) const {
-        const std::span<const float> cells = described(pyramid, box, scratch);
+    /// @brief The cells of a box, for score(): those of all templates that have the same grid.
+    /// @return lies in `scratch`
+    [[nodiscard]] std::span<const float> describe(const HogPyramid& pyramid, const Box& box,
+                                                  CellScratch& scratch) const {
+        scratch.cells.resize(template_->weights.size());
+        describe_cells(pyramid, box, template_->grid, scratch.cells, scratch);
+        return scratch.cells;
+    }
+    /// @brief Judges a box by its cells, on the side that fits better.
+    [[nodiscard]] Score score(std::span<const float> cells, const Box& box) const {
         const double plain = dot(cells, template_->weights), other = dot(cells, mirrored_);
         return {std::max(plain, other) + template_->bias - template_->aspect_penalty(box), other > plain};
     }
     /// @brief Judges a box on one side.
     [[nodiscard]] double of_side(const HogPyramid& pyramid, const Box& box, bool mirrored,
                                  CellScratch& scratch) const {
-        return dot(described(pyramid, box, scratch), mirrored ? mirrored_ : template_->weights) +
+        return dot(describe(pyramid, box, scratch), mirrored ? mirrored_ : template_->weights) +
                template_->bias - template_->aspect_penalty(box);
     }
     /// @brief What each cell of a box has to do with of_side().
     [[nodiscard]] CellShares explain(const HogPyramid& pyramid, const Box& box, bool mirrored,
                                      CellScratch& scratch) const {
-        const std::span<const float> cells = described(pyramid, box, scratch);
+        const std::span<const float> cells = describe(pyramid, box, scratch);
         const std::span<const float> weights = mirrored ? mirrored_ : template_->weights;
         const double rest = template_->bias - template_->aspect_penalty(box);
         CellShares result{template_->grid, box, {}};
@@ -56,12 +63,6 @@ public:
     }
 
 private:
-    [[nodiscard]] std::span<const float> described(const HogPyramid& pyramid, const Box& box,
-                                                   CellScratch& scratch) const {
-        scratch.cells.resize(template_->weights.size());
-        describe_cells(pyramid, box, template_->grid, scratch.cells, scratch);
-        return scratch.cells;
-    }
     [[nodiscard]] static double dot(std::span<const float> a, std::span<const float> b) {
         std::array<float, 16> sums{};
         const std::size_t whole = a.size() / 16 * 16;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ism/core/geometry.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/random.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/hog/describe_cells.hpp"
@@ -17,14 +18,12 @@
 #include "ism/hog/hog_pyramid.hpp"
 #include "ism/hog/propose_boxes.hpp"
 #include "ism/model/patch_classifier.hpp"
-#include "ism/train/fit_box_templates.hpp"
 #include "ism/train/linear_svm.hpp"
 #include "ism/train/pyramid_workers.hpp"
+#include "ism/train/template_examples.hpp"
 #include "ism/train/training_image.hpp"
 
-namespace ism {
-
-namespace detail {
+namespace ism::detail {
 
 /// Patches of objects and of the strongest hypotheses, from up to a hundred images.
 [[nodiscard]] inline std::vector<float> sampled_patches(std::span<const TemplateImage> images,
@@ -63,53 +62,82 @@ namespace detail {
     return patches;
 }
 
-/// The Fisher vectors of an image's boxes, one after another, and how far each box overlaps objects.
+/// The Fisher vectors of boxes of an image, one after another, and how far each box overlaps objects.
 struct PatchRows {
     std::vector<float> rows = {};
     std::vector<std::vector<float>> overlaps = {};  ///< of each row, by class: the greatest IoU
 };
 
-/// Objects on both sides, with copies that are a little off, and other boxes on one side.
-[[nodiscard]] inline PatchRows patch_rows(const TemplateImage& image, std::span<const Box> others,
-                                          const FisherEncoder& encoder, const HogPyramid& pyramid,
-                                          std::size_t classes, int copies, Random& random) {
-    PatchRows result;
-    CellScratch scratch;
-    std::vector<float> cells;
-    const auto add = [&](const Box& box, bool plain, bool mirrored) {
+/// Describes boxes of training images by their patches.
+class PatchDescriber {
+public:
+    /// @param mixture  has to stay as long as this
+    PatchDescriber(const PatchMixture& mixture, std::span<const TemplateImage> images, std::size_t classes)
+        : encoder_(mixture), images_(images), classes_(classes) {}
+
+    /// Objects on both sides, with copies that are a little off.
+    [[nodiscard]] PatchRows objects(std::size_t image, const HogPyramid& pyramid) const {
+        std::size_t count = 0;
+        for (const TemplateImage& one : images_) count += one.labels.size();
+        const int copies = count <= 1000 ? 2 : 0;
+        PatchRows result;
+        const std::size_t rows = images_[image].labels.size() * std::size_t(2 * (1 + copies));
+        result.rows.reserve(rows * PatchMixture::vector_numbers);
+        Random random(image + 1);
+        for (const ObjectLabel& label : images_[image].labels)
+            for (int k = 0; k <= copies; ++k)
+                add(k == 0 ? label.box : jittered(label.box, random, 0.04, 0.08, 0.08), image, pyramid, true,
+                    true, result);
+        return result;
+    }
+    /// Other boxes on one side, the first of them, so that the rows of a thousand images take 200 MB.
+    /// @param share  of the rows, where several describe theirs
+    [[nodiscard]] PatchRows others(std::size_t image, std::span<const Box> boxes, std::size_t share,
+                                   const HogPyramid& pyramid) const {
+        const std::size_t most = std::max<std::size_t>(4, 6000 / images_.size() / share);
+        PatchRows result;
+        result.rows.reserve(std::min(most, boxes.size()) * PatchMixture::vector_numbers);
+        Random random(image + 1);
+        for (const Box& box : boxes.first(std::min(most, boxes.size()))) {
+            const bool mirrored = random.uniform() < 0.5;
+            add(box, image, pyramid, !mirrored, mirrored, result);
+        }
+        return result;
+    }
+
+private:
+    void add(const Box& box, std::size_t image, const HogPyramid& pyramid, bool plain, bool mirrored,
+             PatchRows& to) const {
+        CellScratch scratch;
         const BoxGrid grid = patch_grid(box);
-        cells.resize(grid.cells() * cell_numbers);
+        std::vector<float> cells(grid.cells() * cell_numbers);
         describe_cells(pyramid, box, grid, cells, scratch);
         std::vector<float> overlaps;
-        for (std::uint32_t c = 0; c < classes; ++c) overlaps.push_back(float(best_iou(box, image.labels, c)));
+        for (std::uint32_t c = 0; c < classes_; ++c)
+            overlaps.push_back(float(best_iou(box, images_[image].labels, c)));
         for (const bool mirror : {false, true}) {
             if (!(mirror ? mirrored : plain)) continue;
-            const std::vector<float> row = encoder.encode(mirror ? mirrored_cells(cells, grid) : cells, grid);
-            result.rows.insert(result.rows.end(), row.begin(), row.end());
-            result.overlaps.push_back(overlaps);
+            append(to.rows, encoder_.encode(mirror ? mirrored_cells(cells, grid) : cells, grid));
+            to.overlaps.push_back(overlaps);
         }
-    };
-    for (const ObjectLabel& label : image.labels)
-        for (int k = 0; k <= copies; ++k)
-            add(k == 0 ? label.box : jittered(label.box, random, 0.04, 0.08, 0.08), true, true);
-    for (const Box& box : others) {
-        const bool mirrored = random.uniform() < 0.5;
-        add(box, !mirrored, mirrored);
     }
-    return result;
-}
+
+    FisherEncoder encoder_;
+    std::span<const TemplateImage> images_;
+    std::size_t classes_;
+};
 
 /// Those that show the class against those that do not; what overlaps an object in part is left out.
 inline void fit_patch_weights(PatchClassifier& classifier, std::uint32_t class_index,
-                              std::span<const PatchRows> of_images) {
+                              std::span<const PatchRows* const> parts) {
     constexpr double same_iou = 0.7, other_iou = 0.35;
     std::vector<const float*> rows;
     std::vector<std::uint8_t> positive;
-    for (const PatchRows& image : of_images)
-        for (std::size_t i = 0; i < image.overlaps.size(); ++i) {
-            const double overlap = double(image.overlaps[i][class_index]);
+    for (const PatchRows* part : parts)
+        for (std::size_t i = 0; i < part->overlaps.size(); ++i) {
+            const double overlap = double(part->overlaps[i][class_index]);
             if (overlap >= other_iou && overlap < same_iou) continue;
-            rows.push_back(&image.rows[i * PatchMixture::vector_numbers]);
+            rows.push_back(&part->rows[i * PatchMixture::vector_numbers]);
             positive.push_back(overlap >= same_iou);
         }
     const auto positives = double(std::count(positive.begin(), positive.end(), std::uint8_t(1))),
@@ -123,40 +151,18 @@ inline void fit_patch_weights(PatchClassifier& classifier, std::uint32_t class_i
     classifier.bias[class_index] = float(fit.bias);
 }
 
-}  // namespace detail
-
-/// @brief Fits a classifier of what the patches of boxes look like, by linear support vector machines: boxes
-/// of objects against boxes of other objects and of what templates took for objects.
-/// @param boxes  of each image: what fit_box_templates() found
-/// @return the same for any number of threads
-[[nodiscard]] inline PatchClassifier fit_patch_classifier(std::span<const TemplateImage> images,
-                                                          std::span<const std::vector<Box>> boxes,
+/// Fits a classifier of what the patches of boxes look like, by linear support vector machines: boxes of
+/// objects against boxes of other objects and of what templates took for objects. The same for any number of
+/// threads.
+[[nodiscard]] inline PatchClassifier fit_patch_classifier(std::span<const PatchRows* const> parts,
                                                           const PatchMixture& mixture, std::size_t classes,
-                                                          PyramidWorkers& workers) {
-    // so that the rows of a thousand images and as many objects take 200 MB
-    const std::size_t of_image = std::max<std::size_t>(4, 6000 / images.size());
-    std::size_t objects = 0;
-    for (const TemplateImage& image : images) objects += image.labels.size();
-    const int copies = objects <= 1000 ? 2 : 0;
+                                                          ThreadPool& pool) {
     PatchClassifier classifier{.mixture = mixture,
                                .weights = std::vector<std::vector<float>>(classes),
                                .bias = std::vector<float>(classes)};
-    const FisherEncoder encoder(classifier.mixture);
-    std::vector<detail::PatchRows> examples(images.size());
-    workers.for_each(images.size(), [&](std::size_t i, HogPyramid& pyramid) {
-        const auto others = std::span(boxes[i]).first(std::min(of_image, boxes[i].size()));
-        std::vector<ProposedBox> all;
-        for (const Box& box : others) all.push_back({0, box});
-        for (const ObjectLabel& label : images[i].labels) all.push_back({label.class_index, label.box});
-        ThreadPool pool(1);
-        pyramid.assign(images[i].color, finest_level(all), pool);
-        Random random(i + 1);
-        examples[i] = detail::patch_rows(images[i], others, encoder, pyramid, classes, copies, random);
-    });
-    workers.pool().for_each(classes, [&](std::size_t c, unsigned) {
-        detail::fit_patch_weights(classifier, std::uint32_t(c), examples);
-    });
+    pool.for_each(classes,
+                  [&](std::size_t c, unsigned) { fit_patch_weights(classifier, std::uint32_t(c), parts); });
     return classifier;
 }
 
-}  // namespace ism
+}  // namespace ism::detail

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ism/core/error.hpp"
+#include "ism/core/geometry.hpp"
+#include "ism/core/image.hpp"
+#include "ism/core/random.hpp"
+#include "ism/detect/voted_boxes.hpp"
+#include "ism/hog/box_template.hpp"
+#include "ism/hog/describe_cells.hpp"
+#include "ism/hog/hog_pyramid.hpp"
+#include "ism/hog/propose_boxes.hpp"
+#include "ism/model/box_classifier.hpp"
+#include "ism/train/training_image.hpp"
+
+namespace ism {
+
+/// @brief How a template of each class is fitted to the boxes of its objects.
+struct TemplateOptions {
+    int cells = 100;          ///< of a box, about
+    int jittered_copies = 2;  ///< of each object's box, moved by a few hundredths
+    int mining_rounds = 2;    ///< searches of the training images for boxes that are found wrongly
+    double cost = 0.05;       ///< C of the support vector machine
+};
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const TemplateOptions& options) {
+    expect(options.cells >= 9 && options.cells <= 1000, "TemplateOptions::cells", "9 ... 1000",
+           options.cells);
+    expect(options.jittered_copies >= 0 && options.jittered_copies <= 100, "TemplateOptions::jittered_copies",
+           "0 ... 100", options.jittered_copies);
+    expect(options.mining_rounds >= 0 && options.mining_rounds <= 100, "TemplateOptions::mining_rounds",
+           "0 ... 100", options.mining_rounds);
+    expect(options.cost >= 1e-9 && options.cost <= 1e9, "TemplateOptions::cost", "1e-9 ... 1e9",
+           options.cost);
+}
+
+/// @brief A training image for templates, with the hypotheses that were found on it without votes of its own
+/// objects.
+struct TemplateImage {
+    ImageView<const Rgb> color;
+    std::vector<ObjectLabel> labels;
+    std::vector<ProposedBox> proposals;
+    WordMap words = {};     ///< for judges that know words too …
+    VotedBoxes voted = {};  ///< … and votes, without those of its own objects
+};
+
+namespace detail {
+
+/// A box near another: moved by up to so many parts of its sides, its size and aspect changed by up to so
+/// much (logarithms).
+[[nodiscard]] inline Box jittered(const Box& box, Random& random, double place, double size, double aspect) {
+    const double s = std::exp(random.uniform(-size, size));
+    const double w = box.width * s * std::exp(random.uniform(-aspect, aspect)), h = box.height * s;
+    const double x = box.x + box.width / 2 + random.uniform(-place, place) * box.width;
+    const double y = box.y + box.height / 2 + random.uniform(-place, place) * box.height;
+    return {x - w / 2, y - h / 2, w, h};
+}
+
+/// Of the objects of a class, the IoU with that which overlaps most.
+[[nodiscard]] inline double best_iou(const Box& box, const std::vector<ObjectLabel>& labels,
+                                     std::uint32_t class_index) {
+    double best = 0;
+    for (const ObjectLabel& label : labels)
+        if (label.class_index == class_index) best = std::max(best, iou(box, label.box));
+    return best;
+}
+
+/// A template without weights: the grid and the aspects of a class from its labelled boxes. It has a ring
+/// where more than half of what lies around its boxes lies in the images.
+[[nodiscard]] inline BoxTemplate blank_template(std::span<const TemplateImage> images,
+                                                std::uint32_t class_index, int cells) {
+    std::vector<double> aspects;
+    double inside = 0, around = 0;
+    for (const TemplateImage& image : images)
+        for (const ObjectLabel& label : image.labels) {
+            if (label.class_index != class_index) continue;
+            aspects.push_back(std::log(label.box.width / label.box.height));
+            const double m = std::sqrt(label.box.area() / cells);
+            const Box wide{label.box.x - m, label.box.y - m, label.box.width + 2 * m,
+                           label.box.height + 2 * m};
+            const Box picture{0, 0, double(image.color.width()), double(image.color.height())};
+            inside += (intersection(wide, picture).area() - intersection(label.box, picture).area()) /
+                      (wide.area() - label.box.area());
+            around += 1;
+        }
+    expect(!aspects.empty(), lazy_text("templates: objects of class ", class_index), "1 or more", 0);
+    BoxTemplate result;
+    std::sort(aspects.begin(), aspects.end());
+    const double middle = aspects[aspects.size() / 2];
+    double mean = 0, spread = 0;
+    for (const double a : aspects) mean += a / double(aspects.size());
+    for (const double a : aspects) spread += (a - mean) * (a - mean) / double(aspects.size());
+    result.log_aspect = float(middle), result.log_aspect_spread = float(std::max(0.1, std::sqrt(spread)));
+    result.grid = {.columns = std::max(3, int(std::lround(std::sqrt(cells * std::exp(middle))))),
+                   .rows = std::max(3, int(std::lround(std::sqrt(cells / std::exp(middle))))),
+                   .ring = inside > 0.5 * around};
+    return result;
+}
+
+/// What a template is fitted to, of one image: rows of cells.
+struct TemplateExamples {
+    std::vector<float> plain = {}, mirrored = {};  ///< boxes of objects, and the same as a mirror shows them
+    std::vector<float> negative = {};
+};
+
+/// The cells of boxes, as they are or mirrored, one row after another.
+class CellRows {
+public:
+    CellRows(const HogPyramid& pyramid, const BoxGrid& grid)
+        : pyramid_(pyramid), grid_(grid), cells_(grid.cells() * cell_numbers) {}
+
+    void append(const Box& box, bool mirrored, std::vector<float>& rows) {
+        describe_cells(pyramid_, box, grid_, cells_, scratch_);
+        const std::vector<float>& row = mirrored ? mirror_ = mirrored_cells(cells_, grid_) : cells_;
+        rows.insert(rows.end(), row.begin(), row.end());
+    }
+
+private:
+    const HogPyramid& pyramid_;
+    const BoxGrid& grid_;
+    CellScratch scratch_;
+    std::vector<float> cells_, mirror_;
+};
+
+/// The hypotheses and the labelled boxes of an image.
+[[nodiscard]] inline std::vector<ProposedBox> all_boxes(const TemplateImage& image) {
+    std::vector<ProposedBox> boxes = image.proposals;
+    for (const ObjectLabel& label : image.labels) boxes.push_back({label.class_index, label.box});
+    return boxes;
+}
+
+/// What an image shows of a class, and what is none: hypotheses, and boxes beside or across objects.
+[[nodiscard]] inline TemplateExamples first_examples(const TemplateImage& image, const HogPyramid& pyramid,
+                                                     std::uint32_t class_index, const BoxGrid& grid,
+                                                     int copies, std::size_t max_negatives, Random& random) {
+    TemplateExamples examples;
+    CellRows rows(pyramid, grid);
+    std::vector<Box> others;
+    for (const ProposedBox& proposal : image.proposals) others.push_back(proposal.box);
+    for (const ObjectLabel& label : image.labels) {
+        for (int k = 0; k < 6; ++k) others.push_back(jittered(label.box, random, 0.6, 0.7, 0.2));
+        if (label.class_index != class_index) continue;
+        for (int k = 0; k <= copies; ++k) {
+            const Box box = k == 0 ? label.box : jittered(label.box, random, 0.04, 0.08, 0.08);
+            rows.append(box, false, examples.plain);
+            rows.append(box, true, examples.mirrored);
+        }
+    }
+    std::erase_if(others, [&](const Box& box) { return best_iou(box, image.labels, class_index) >= 0.4; });
+    examples.negative.reserve(std::min(max_negatives, others.size()) * grid.cells() * cell_numbers);
+    for (std::size_t count = 0; count < max_negatives && !others.empty(); ++count) {
+        std::swap(others[random.index(others.size())], others.back());
+        rows.append(others.back(), random.uniform() < 0.5, examples.negative);
+        others.pop_back();
+    }
+    return examples;
+}
+
+}  // namespace detail
+
+}  // namespace ism
