@@ -22,7 +22,7 @@
 #include "ism/detect/exemplar_segmenter.hpp"
 #include "ism/detect/template_recognition.hpp"
 #include "ism/evaluate/detections.hpp"
-#include "ism/train/fit_box_templates.hpp"
+#include "ism/train/template_examples.hpp"
 
 namespace {
 
