@@ -73,19 +73,20 @@ class PatchDescriber {
 public:
     /// @param mixture  has to stay as long as this
     PatchDescriber(const PatchMixture& mixture, std::span<const TemplateImage> images, std::size_t classes)
-        : encoder_(mixture), images_(images), classes_(classes) {}
+        : encoder_(mixture), images_(images), classes_(classes) {
+        std::size_t objects = 0;
+        for (const TemplateImage& image : images) objects += image.labels.size();
+        copies_ = objects <= 1000 ? 2 : 0;
+    }
 
     /// Objects on both sides, with copies that are a little off.
     [[nodiscard]] PatchRows objects(std::size_t image, const HogPyramid& pyramid) const {
-        std::size_t count = 0;
-        for (const TemplateImage& one : images_) count += one.labels.size();
-        const int copies = count <= 1000 ? 2 : 0;
         PatchRows result;
-        const std::size_t rows = images_[image].labels.size() * std::size_t(2 * (1 + copies));
+        const std::size_t rows = images_[image].labels.size() * std::size_t(2 * (1 + copies_));
         result.rows.reserve(rows * PatchMixture::vector_numbers);
         Random random(image + 1);
         for (const ObjectLabel& label : images_[image].labels)
-            for (int k = 0; k <= copies; ++k)
+            for (int k = 0; k <= copies_; ++k)
                 add(k == 0 ? label.box : jittered(label.box, random, 0.04, 0.08, 0.08), image, pyramid, true,
                     true, result);
         return result;
@@ -125,6 +126,7 @@ private:
     FisherEncoder encoder_;
     std::span<const TemplateImage> images_;
     std::size_t classes_;
+    int copies_ = 0;  // of each object
 };
 
 /// Those that show the class against those that do not; what overlaps an object in part is left out.
