@@ -83,7 +83,8 @@ struct FittedJudges {
     const PatchDescriber describer(mixture, images, classes);
 
     const BoxClassifierOptions word_options;
-    const std::size_t of_image = std::max<std::size_t>(3, word_options.max_hypotheses / 2 / images.size());
+    const std::size_t boxes_per_image =
+        std::max<std::size_t>(3, word_options.max_hypotheses / 2 / images.size());
     std::vector<std::vector<TrainingBox>> words(images.size());
     const auto words_without = [&](std::size_t f) {
         std::vector<TrainingBox> boxes;
@@ -122,7 +123,7 @@ struct FittedJudges {
             } else {
                 fitter.describe(i, pyramid);
                 objects[i] = describer.objects(i, pyramid);
-                words[i] = word_boxes(images[i], of_image);
+                words[i] = word_boxes(images[i], boxes_per_image);
             }
             for (const std::size_t f : seeing)
                 if (round == (f == 0 ? rounds : fold_rounds))
@@ -141,7 +142,7 @@ struct FittedJudges {
         }
     }
     FittedJudges fitted{.templates = fits[0].templates, .patches = patches_without(0)};
-    for (const auto& of_image : judged) append(fitted.judged, of_image);
+    for (const std::vector<JudgedBox>& boxes : judged) append(fitted.judged, boxes);
     return fitted;
 }
 
