@@ -65,7 +65,7 @@ struct Lined {
                 for (const std::size_t f : all)
                     if (fitter.sees(fitter.fits()[f], i)) seeing.push_back(f);
                 if (round == 0)
-                    fitter.describe(i, pyramid);
+                    fitter.describe(i, pyramid, pool);
                 else
                     fitter.mine(i, seeing, round, pyramid, pool);
             }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/lanes.hpp"
 #include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/core/random.hpp"
@@ -24,6 +25,13 @@
 
 namespace ism::detail {
 
+/// By how much a row is likelier by these weights as a mirror shows it.
+[[nodiscard]] inline float ahead_mirrored(std::span<const float> weights, const float* plain,
+                                          const float* mirrored) {
+    return sum_in_lanes<float, 16>(weights.size(),
+                                   [&](std::size_t k) { return weights[k] * (mirrored[k] - plain[k]); });
+}
+
 /// Which of the positives are shown mirrored: the assignment whose mean is longest, from six starts.
 [[nodiscard]] inline std::vector<std::uint8_t> sides_of(std::span<const float* const> plain,
                                                         std::span<const float* const> mirrored,
@@ -36,24 +44,23 @@ namespace ism::detail {
         std::vector<std::uint8_t> side(count, 0);
         if (start > 0)
             for (auto& s : side) s = random.uniform() < 0.5;
-        std::vector<double> mean(dimension);
+        std::vector<float> mean(dimension);
         for (int round = 0; round < 12; ++round) {
-            std::fill(mean.begin(), mean.end(), 0.0);
-            for (std::size_t i = 0; i < count; ++i)
-                for (std::size_t k = 0; k < dimension; ++k) mean[k] += (side[i] ? mirrored : plain)[i][k];
+            std::fill(mean.begin(), mean.end(), 0.0f);
+            for (std::size_t i = 0; i < count; ++i) {
+                const float* shown = side[i] ? mirrored[i] : plain[i];
+                for (std::size_t k = 0; k < dimension; ++k) mean[k] += shown[k];
+            }
             bool changed = false;
             for (std::size_t i = 0; i < count; ++i) {
-                double a = 0, b = 0;
-                for (std::size_t k = 0; k < dimension; ++k)
-                    a += mean[k] * plain[i][k], b += mean[k] * mirrored[i][k];
-                const std::uint8_t now = b > a;
+                const std::uint8_t now = ahead_mirrored(mean, plain[i], mirrored[i]) > 0;
                 changed = changed || now != side[i];
                 side[i] = now;
             }
             if (!changed) break;
         }
         double length = 0;
-        for (const double m : mean) length += m * m;
+        for (const float m : mean) length += double(m) * double(m);
         if (length > longest * (1 + 1e-9)) longest = length, best = side;
     }
     return best;
@@ -86,6 +93,7 @@ public:
         : images_(images),
           fold_of_(fold_of),
           options_(options),
+          turned_copies_(object_count(images) <= 1000 ? options.turned_copies : 0),
           max_rows_(std::min<std::size_t>(6000, 40000 / classes)),
           examples_(classes, std::vector<TemplateExamples>(images.size())) {
         check(options);
@@ -106,11 +114,16 @@ public:
     }
 
     /// Describes the boxes of an image that are known beforehand.
-    void describe(std::size_t image, const HogPyramid& pyramid) {
+    void describe(std::size_t image, const HogPyramid& pyramid, ThreadPool& pool) {
         Random random(image + 1);
-        for (std::uint32_t c = 0; c < examples_.size(); ++c)
-            examples_[c][image] = first_examples(images_[image], pyramid, c, fits_[0].templates[c].grid,
-                                                 options_.jittered_copies, negatives_of_image(), random);
+        HogPyramid of_turned;
+        for (std::uint32_t c = 0; c < examples_.size(); ++c) {
+            const BoxGrid& grid = fits_[0].templates[c].grid;
+            TemplateExamples& examples = examples_[c][image];
+            examples = first_examples(images_[image], pyramid, c, grid, options_.jittered_copies,
+                                      negatives_of_image(), random);
+            add_turned_examples(images_[image], c, grid, turned_copies_, random, of_turned, pool, examples);
+        }
     }
     /// Lets templates look for their class where detection would, and keeps what they take for it wrongly.
     /// @param chosen  numbers of fits that see the image
@@ -199,10 +212,7 @@ private:
         LinearClassifier classifier = fit_linear_svm(
             rows, dimension, positive, {.cost = options_.cost, .positive_cost = std::max(1.0, 0.1 * rarer)});
         for (std::size_t i = 0; i < positives; ++i) {
-            double ahead = 0;
-            for (std::size_t k = 0; k < dimension; ++k)
-                ahead += double(classifier.weights[k]) * double(mirrored[i][k] - plain[i][k]);
-            side[i] = ahead > 0;
+            side[i] = ahead_mirrored(classifier.weights, plain[i], mirrored[i]) > 0;
         }
         one.weights = std::move(classifier.weights), one.bias = float(classifier.bias);
     }
@@ -210,6 +220,7 @@ private:
     std::span<const TemplateImage> images_;
     std::span<const std::size_t> fold_of_;
     TemplateOptions options_;
+    int turned_copies_;
     std::size_t max_rows_;
     std::vector<std::vector<TemplateExamples>> examples_;  // of each class and image
     std::vector<TemplateFit> fits_ = {};

@@ -74,9 +74,7 @@ public:
     /// @param mixture  has to stay as long as this
     PatchDescriber(const PatchMixture& mixture, std::span<const TemplateImage> images, std::size_t classes)
         : encoder_(mixture), images_(images), classes_(classes) {
-        std::size_t objects = 0;
-        for (const TemplateImage& image : images) objects += image.labels.size();
-        copies_ = objects <= 1000 ? 2 : 0;
+        copies_ = object_count(images) <= 1000 ? 2 : 0;
     }
 
     /// Objects on both sides, with copies that are a little off.

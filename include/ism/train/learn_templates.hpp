@@ -121,7 +121,7 @@ struct FittedJudges {
             if (round > 0) {
                 fitter.mine(i, seeing, round, pyramid, pool);
             } else {
-                fitter.describe(i, pyramid);
+                fitter.describe(i, pyramid, pool);
                 objects[i] = describer.objects(i, pyramid);
                 words[i] = word_boxes(images[i], boxes_per_image);
             }

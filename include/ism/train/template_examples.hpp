@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
 #include "ism/core/random.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/detect/voted_boxes.hpp"
 #include "ism/hog/box_template.hpp"
 #include "ism/hog/describe_cells.hpp"
@@ -21,6 +23,7 @@
 #include "ism/hog/propose_boxes.hpp"
 #include "ism/model/box_classifier.hpp"
 #include "ism/train/training_image.hpp"
+#include "ism/train/turned_object.hpp"
 
 namespace ism {
 
@@ -28,6 +31,7 @@ namespace ism {
 struct TemplateOptions {
     int cells = 100;          ///< of a box, about
     int jittered_copies = 2;  ///< of each object's box, moved by a few hundredths
+    int turned_copies = 2;    ///< … and turned by 3 to 6 degrees, of up to a thousand objects
     int mining_rounds = 2;    ///< searches of the training images for boxes that are found wrongly
     double cost = 0.05;       ///< C of the support vector machine
 };
@@ -39,6 +43,8 @@ inline void check(const TemplateOptions& options) {
            options.cells);
     expect(options.jittered_copies >= 0 && options.jittered_copies <= 100, "TemplateOptions::jittered_copies",
            "0 ... 100", options.jittered_copies);
+    expect(options.turned_copies >= 0 && options.turned_copies <= 100, "TemplateOptions::turned_copies",
+           "0 ... 100", options.turned_copies);
     expect(options.mining_rounds >= 0 && options.mining_rounds <= 100, "TemplateOptions::mining_rounds",
            "0 ... 100", options.mining_rounds);
     expect(options.cost >= 1e-9 && options.cost <= 1e9, "TemplateOptions::cost", "1e-9 ... 1e9",
@@ -74,6 +80,13 @@ namespace detail {
     for (const ObjectLabel& label : labels)
         if (label.class_index == class_index) best = std::max(best, iou(box, label.box));
     return best;
+}
+
+/// The number of objects in images.
+[[nodiscard]] inline std::size_t object_count(std::span<const TemplateImage> images) {
+    std::size_t count = 0;
+    for (const TemplateImage& image : images) count += image.labels.size();
+    return count;
 }
 
 /// A template without weights: the grid and the aspects of a class from its labelled boxes. It has a ring
@@ -165,6 +178,26 @@ private:
         others.pop_back();
     }
     return examples;
+}
+
+/// Adds to what an image shows of a class its objects turned to either side, which few training images show
+/// and many a later one: animals that graze or rear, cars on a slope, a camera held askew.
+/// @param pyramid  for pictures of them
+inline void add_turned_examples(const TemplateImage& image, std::uint32_t class_index, const BoxGrid& grid,
+                                int copies, Random& random, HogPyramid& pyramid, ThreadPool& pool,
+                                TemplateExamples& examples) {
+    constexpr double least_rad = 3 * std::numbers::pi / 180, most_rad = 2 * least_rad;
+    for (const ObjectLabel& label : image.labels)
+        for (int k = 0; k < copies && label.class_index == class_index; ++k) {
+            const double angle_rad = random.uniform(least_rad, most_rad) * (k % 2 == 0 ? 1 : -1),
+                         two_cells = 2 / std::sqrt(double(grid.columns * grid.rows));
+            const TurnedObject turned = turned_object(image.color, label.box, angle_rad, two_cells);
+            const ProposedBox shown[] = {{class_index, turned.box}};
+            pyramid.assign(turned.picture, finest_level(shown), pool);
+            CellRows rows(pyramid, grid);
+            rows.append(turned.box, false, examples.plain);
+            rows.append(turned.box, true, examples.mirrored);
+        }
 }
 
 }  // namespace detail

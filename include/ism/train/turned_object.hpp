@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "ism/core/geometry.hpp"
+#include "ism/core/image.hpp"
+#include "ism/core/resize_area.hpp"
+
+namespace ism::detail {
+
+/// An object as it looks where it is turned a little: a picture of its box and of what lies around.
+struct TurnedObject {
+    RgbImage picture;
+    Box box;  ///< in the picture
+};
+
+/// Colours between pixels by bilinear interpolation, row after row of three numbers; outside the edge is
+/// repeated.
+class ColorSampler {
+public:
+    /// The part of an image that is in a box, or the pixel nearest to it, at `factor` ≤ 1 times its size.
+    ColorSampler(ImageView<const Rgb> image, const Box& box, double factor) {
+        const auto within = [](double place, int size) { return int(std::clamp(place, 0.0, double(size))); };
+        left_ = within(box.x, image.width() - 1), top_ = within(box.y, image.height() - 1);
+        const int width = std::max(1, within(std::ceil(box.x + box.width), image.width()) - left_),
+                  height = std::max(1, within(std::ceil(box.y + box.height), image.height()) - top_);
+        numbers_.reserve(std::size_t(width) * std::size_t(height) * 3);
+        for (int y = 0; y < height; ++y)
+            for (const Rgb c : image.row(top_ + y).subspan(std::size_t(left_), std::size_t(width)))
+                numbers_.insert(numbers_.end(), {float(c.r), float(c.g), float(c.b)});
+        columns_ = std::max(1, int(std::lround(width * factor)));
+        rows_ = std::max(1, int(std::lround(height * factor)));
+        across_ = double(columns_) / width, down_ = double(rows_) / height;
+        numbers_ = resize_area(numbers_, width, height, 3, columns_, rows_);
+    }
+
+    /// Around a place in the image, where pixel (x, y) reaches from there to (x + 1, y + 1).
+    [[nodiscard]] Rgb operator()(double x, double y) const {
+        const double u = std::clamp((x - left_) * across_ - 0.5, 0.0, columns_ - 1.0),
+                     v = std::clamp((y - top_) * down_ - 0.5, 0.0, rows_ - 1.0);
+        const int i = int(u), j = int(v), right = std::min(i + 1, columns_ - 1),
+                  below = std::min(j + 1, rows_ - 1);
+        const double p = u - i, q = v - j;
+        const float *a = pixel(i, j), *b = pixel(right, j), *c = pixel(i, below), *d = pixel(right, below);
+        const auto mixed = [&](int k) {
+            return std::uint8_t((1 - q) * ((1 - p) * a[k] + p * b[k]) + q * ((1 - p) * c[k] + p * d[k]) +
+                                0.5);
+        };
+        return {mixed(0), mixed(1), mixed(2)};
+    }
+
+private:
+    [[nodiscard]] const float* pixel(int column, int row) const {
+        return &numbers_[(std::size_t(row) * std::size_t(columns_) + std::size_t(column)) * 3];
+    }
+
+    std::vector<float> numbers_;
+    int left_ = 0, top_ = 0, columns_ = 0, rows_ = 0;
+    double across_ = 1, down_ = 1;
+};
+
+/// Turns an object about the middle of its box. Where it is larger than 400 × 400 pixels, the picture is
+/// smaller.
+/// @param angle_rad  clockwise
+/// @param margin     around the box, as a part of the root of its area
+[[nodiscard]] inline TurnedObject turned_object(ImageView<const Rgb> image, const Box& box, double angle_rad,
+                                                double margin) {
+    constexpr double max_side = 400;
+    const double side = std::sqrt(box.area()), factor = std::min(1.0, max_side / side),
+                 cosine = std::cos(angle_rad), sine = std::sin(angle_rad);
+    const double width = box.width + 2 * margin * side, height = box.height + 2 * margin * side,
+                 x = box.x + box.width / 2, y = box.y + box.height / 2;
+    const double seen_width = width * std::abs(cosine) + height * std::abs(sine),
+                 seen_height = width * std::abs(sine) + height * std::abs(cosine);
+    const ColorSampler color(image, {x - seen_width / 2, y - seen_height / 2, seen_width, seen_height},
+                             factor);
+    TurnedObject turned{
+        .picture = RgbImage(int(std::ceil(width * factor)), int(std::ceil(height * factor))),
+        .box = {margin * side * factor, margin * side * factor, box.width * factor, box.height * factor}};
+    for (int row = 0; row < turned.picture.height(); ++row)
+        for (int column = 0; column < turned.picture.width(); ++column) {
+            const double dx = (column + 0.5) / factor - width / 2, dy = (row + 0.5) / factor - height / 2;
+            turned.picture(column, row) = color(x + cosine * dx + sine * dy, y - sine * dx + cosine * dy);
+        }
+    return turned;
+}
+
+}  // namespace ism::detail
