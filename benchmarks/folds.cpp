@@ -39,7 +39,7 @@ constexpr int rate_steps = 16;
 
 /// Of one draw, or their mean.
 struct Figures {
-    double ap = 0, found = 0, mean_kept = 0;
+    double ap = 0, mask_iou = 0, found = 0, mean_kept = 0;
     std::array<double, false_rates.size()> kept = {};
     double told = 0, told_false = 0;  ///< at the program's default: share of objects, an image without any
 };
@@ -86,7 +86,8 @@ struct Figures {
 }
 
 [[nodiscard]] Figures figures_of(const ism::Dataset& set, std::span<const ism::Detections> found) {
-    Figures figures{.ap = ism::evaluate(set, found, ism::IouRule{}).mean.ap};
+    const auto mean = ism::evaluate(set, found, ism::IouRule{}).mean;
+    Figures figures{.ap = mean.ap, .mask_iou = mean.mask_iou};
     std::vector<double> right, wrong;  // probabilities
     double objects = 0, empty = 0;
     for (std::size_t i = 0; i < set.images.size(); ++i) {
@@ -131,8 +132,8 @@ int main(int argc, char** argv) try {
     command_line.add("--photographs", most, "of each other set, without the classes", {1, 100000});
     if (const auto code = command_line.parse(argc, argv)) return *code;
 
-    std::vector<std::vector<std::string>> cells = {
-        {"set", "mean AP %", "deviation", "found %", "kept", "at .05", "at .1", "at .2", "told %", "false"}};
+    std::vector<std::vector<std::string>> cells = {{"set", "mean AP %", "deviation", "mask IoU %", "found %",
+                                                    "kept", "at .05", "at .1", "at .2", "told %", "false"}};
     std::vector<ism::Dataset> others;
     for (const char* name : {"sysu-shapes", "msrc", "osd", "weizmann-horses"})
         others.push_back(bench::read_set(options.data / name / "train.json"));
@@ -149,7 +150,8 @@ int main(int argc, char** argv) try {
                 unknown, bench::find_as_program(model, unknown, bench::all_by_templates(), options.threads));
             const double share = 1 / double(draws);
             mean.ap += share * one.ap, squares += share * one.ap * one.ap;
-            mean.found += share * one.found, mean.mean_kept += share * one.mean_kept;
+            mean.mask_iou += share * one.mask_iou, mean.found += share * one.found,
+                mean.mean_kept += share * one.mean_kept;
             for (std::size_t r = 0; r < one.kept.size(); ++r) mean.kept[r] += share * one.kept[r];
             mean.told += share * one.told, mean.told_false += share * one.told_false;
             std::fprintf(stderr, "%s %zu: AP %.1f, kept %.1f, told %.1f, false %.3f\n", name.c_str(), draw,
@@ -157,7 +159,8 @@ int main(int argc, char** argv) try {
         }
         cells.push_back({name, bench::number(100 * mean.ap, 1),
                          bench::number(100 * std::sqrt(std::max(0.0, squares - mean.ap * mean.ap)), 1),
-                         bench::number(100 * mean.found, 1), bench::number(100 * mean.mean_kept, 1)});
+                         bench::number(100 * mean.mask_iou, 1), bench::number(100 * mean.found, 1),
+                         bench::number(100 * mean.mean_kept, 1)});
         for (const double kept : mean.kept) cells.back().push_back(bench::number(100 * kept, 1));
         cells.back().push_back(bench::number(100 * mean.told, 1));
         cells.back().push_back(bench::number(mean.told_false, 3));

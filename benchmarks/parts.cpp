@@ -83,6 +83,7 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
     }
     add("no mining of negatives", finder(judged({.mining_rounds = 0}), search));
     add("no jittered copies", finder(judged({.jittered_copies = 0}), search));
+    add("no turned copies", finder(judged({.turned_copies = 0}), search));
     auto other = recognition;
     other.rescorer.max_classes = 1;
     add("asked about their own class alone", finder(model, other));

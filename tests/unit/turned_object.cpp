@@ -3,13 +3,20 @@
 #include "ism/train/turned_object.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <numbers>
+#include <vector>
 
 #include "support/catch.hpp"
 
 #include "ism/core/image.hpp"
+#include "ism/core/random.hpp"
+#include "ism/core/thread_pool.hpp"
+#include "ism/hog/box_template.hpp"
+#include "ism/hog/hog_pyramid.hpp"
+#include "ism/train/template_examples.hpp"
 
 namespace {
 
@@ -71,4 +78,26 @@ TEST_CASE("a box beside its image shows the nearest edge") {
         REQUIRE(!picture.empty());
         CHECK(picture(0, 0).r == (x < 0 ? 0 : 29));
     }
+}
+
+TEST_CASE("an image shows each object of a class turned, on both sides") {
+    const ism::RgbImage image = slopes(120, 90, 1);
+    const ism::TemplateImage shown{
+        .color = image, .labels = {{0, {20, 10, 40, 30}}, {1, {70, 40, 40, 30}}}, .proposals = {}};
+    const ism::BoxGrid grid{.columns = 4, .rows = 3};
+    ism::detail::TemplateExamples examples;
+    ism::Random random(1);
+    ism::HogPyramid pyramid;
+    ism::ThreadPool pool(1);
+    ism::detail::add_turned_examples(shown, 1, grid, 3, random, pyramid, pool, examples);
+    const std::size_t row = grid.cells() * ism::cell_numbers;
+    REQUIRE(examples.plain.size() == 3 * row);
+    CHECK(examples.mirrored.size() == 3 * row);
+    CHECK(examples.negative.empty());
+    const std::vector<float> first(examples.plain.begin(), examples.plain.begin() + std::ptrdiff_t(row)),
+        second(examples.plain.begin() + std::ptrdiff_t(row),
+               examples.plain.begin() + std::ptrdiff_t(2 * row));
+    CHECK(first != second);
+    ism::detail::add_turned_examples(shown, 1, grid, 0, random, pyramid, pool, examples);
+    CHECK(examples.plain.size() == 3 * row);
 }

@@ -31,7 +31,7 @@ namespace ism {
 struct TemplateOptions {
     int cells = 100;          ///< of a box, about
     int jittered_copies = 2;  ///< of each object's box, moved by a few hundredths
-    int turned_copies = 2;    ///< … and turned by 3 to 6 degrees, of up to a thousand objects
+    int turned_copies = 2;    ///< … and turned by 2 to 5 degrees, of up to a thousand objects
     int mining_rounds = 2;    ///< searches of the training images for boxes that are found wrongly
     double cost = 0.05;       ///< C of the support vector machine
 };
@@ -186,7 +186,7 @@ private:
 inline void add_turned_examples(const TemplateImage& image, std::uint32_t class_index, const BoxGrid& grid,
                                 int copies, Random& random, HogPyramid& pyramid, ThreadPool& pool,
                                 TemplateExamples& examples) {
-    constexpr double least_rad = 3 * std::numbers::pi / 180, most_rad = 2 * least_rad;
+    constexpr double least_rad = 2 * std::numbers::pi / 180, most_rad = 5 * std::numbers::pi / 180;
     for (const ObjectLabel& label : image.labels)
         for (int k = 0; k < copies && label.class_index == class_index; ++k) {
             const double angle_rad = random.uniform(least_rad, most_rad) * (k % 2 == 0 ? 1 : -1),
