@@ -180,8 +180,8 @@ private:
     return examples;
 }
 
-/// Adds to what an image shows of a class its objects turned to either side, which few training images show
-/// and many a later one: animals that graze or rear, cars on a slope, a camera held askew.
+/// Adds the objects of a class turned a little to either side: as few training images show them, but others
+/// will, where animals graze or rear, cars stand on a slope or the camera is held askew.
 /// @param pyramid  for pictures of them
 inline void add_turned_examples(const TemplateImage& image, std::uint32_t class_index, const BoxGrid& grid,
                                 int copies, Random& random, HogPyramid& pyramid, ThreadPool& pool,
