@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -35,8 +36,10 @@ namespace ism::test {
         const double x = centre_x + cosine * (from_left - side / 2) - sine * (from_top - side / 2);
         const double y = centre_y + sine * (from_left - side / 2) + cosine * (from_top - side / 2);
         const double sigma = pattern.uniform(1.5, 5), height_of = pattern.uniform() < 0.5 ? -0.4 : 0.4;
-        for (int v = 0; v < height; ++v)
-            for (int u = 0; u < width; ++u)
+        const auto from = [&](double middle) { return std::max(0, int(middle - 5 * sigma)); };
+        const auto to = [&](double middle, int size) { return std::min(size, int(middle + 5 * sigma) + 1); };
+        for (int v = from(y); v < to(y, height); ++v)
+            for (int u = from(x); u < to(x, width); ++u)
                 image.frame.gray(u, v) += float(
                     height_of * std::exp(-((u - x) * (u - x) + (v - y) * (v - y)) / (2 * sigma * sigma)));
     }

@@ -76,7 +76,7 @@ TEMPLATE_PRODUCT_TEST_CASE("every vote space and every descriptor find the objec
     const auto& model = trained<Desc>();
     for (const std::uint32_t class_index : {0u, 1u}) {
         const auto test = pattern_picture(class_index, 70, 50, 77 + class_index);
-        const auto found = ism::detect<Space>(model, test.frame);
+        const auto found = ism::detect<Space>(model, test.frame, {}, 2);
         REQUIRE_FALSE(found.objects.empty());
         const ism::Detection& best = found.objects.front();
         CHECK(best.class_index == class_index);
@@ -97,8 +97,7 @@ TEMPLATE_PRODUCT_TEST_CASE("every vote space and every descriptor find the objec
             CHECK((!Space::needs_depth || ism::is_depth(found.features[s.feature].depth_m)));
         }
         CHECK(best.probability > 0.5);
-        for (const unsigned threads : {1u, 2u})
-            CHECK(same(found, ism::detect<Space>(model, test.frame, {}, threads)));
+        CHECK(same(found, ism::detect<Space>(model, test.frame, {}, 1)));
     }
 }
 
@@ -311,12 +310,12 @@ TEST_CASE("wrong training images are refused by name") {
     images[2].objects[0].mask = ism::Mask(200, 160);
     images[2].objects[0].mask(3, 3) = 1;
     CHECK_THROWS_WITH(train(), Catch::Contains("picture 2: mask: expected at least 2 figure pixels, got 1"));
-    images[2].objects[0].mask = {};
-    CHECK_NOTHROW(train());  // the box is the mask
+    images[2].objects[0].mask = {};  // the box is the mask
+    images[3].objects.clear();       // background
+    CHECK_NOTHROW(train());
     images[2].objects[0].class_index = 7;
     CHECK_THROWS_WITH(train(), Catch::Contains("picture 2: class of an object"));
     images[2].objects.clear();
-    CHECK_NOTHROW(train());  // background
     for (auto& image : images) std::erase_if(image.objects, [](const auto& o) { return o.class_index == 1; });
     CHECK_THROWS_WITH(train(), Catch::Contains("objects of class second"));
     images = training_set();

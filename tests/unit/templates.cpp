@@ -93,6 +93,13 @@ TEST_CASE("templates judge and place what votes propose") {
         double sum = 0;
         for (const float share : told.cells.shares) sum += double(share);
         CHECK(std::exp(sum) == Approx(told.score).epsilon(1e-4));
+        const auto two = ism::detect(model, test.frame, recognition, 2);
+        REQUIRE(two.objects.size() == found.objects.size());
+        for (std::size_t i = 0; i < two.objects.size(); ++i) {
+            CHECK(two.objects[i].score == found.objects[i].score);
+            CHECK(two.objects[i].box == found.objects[i].box);
+        }
+        if (class_index > 0) continue;
         auto probable = recognition;
         probable.options.min_probability = 0.5;
         const auto sure = ism::detect(model, test.frame, probable, 1);
@@ -105,12 +112,6 @@ TEST_CASE("templates judge and place what votes propose") {
         REQUIRE(none.next_best);  // the best guess is known all the same
         for (const auto& object : found.objects) CHECK(object.probability <= none.next_best->probability);
         CHECK_FALSE(found.next_best);
-        const auto two = ism::detect(model, test.frame, recognition, 2);
-        REQUIRE(two.objects.size() == found.objects.size());
-        for (std::size_t i = 0; i < two.objects.size(); ++i) {
-            CHECK(two.objects[i].score == found.objects[i].score);
-            CHECK(two.objects[i].box == found.objects[i].box);
-        }
     }
 }
 
