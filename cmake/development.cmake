@@ -48,7 +48,7 @@ file(GLOB toy_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/examples/toy/*.cp
 add_library(ism_toys STATIC EXCLUDE_FROM_ALL ${toy_sources})
 target_link_libraries(ism_toys PUBLIC ism_dev_options PRIVATE ism_stb)
 target_compile_options(ism_toys PRIVATE $<$<CONFIG:Release>:-O2>)
-set_source_files_properties("${PROJECT_SOURCE_DIR}/examples/toy/toy_set.cpp" DIRECTORY "${PROJECT_SOURCE_DIR}" PROPERTIES
+set_source_files_properties("${PROJECT_SOURCE_DIR}/examples/toy/toy_set.cpp" PROPERTIES
                             SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS "$<IF:$<CONFIG:Debug>,-O0,-O1>") # which writes JSON
 set_target_properties(ism_toys PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 7)
 

@@ -36,10 +36,9 @@ namespace ism::test {
         const double x = centre_x + cosine * (from_left - side / 2) - sine * (from_top - side / 2);
         const double y = centre_y + sine * (from_left - side / 2) + cosine * (from_top - side / 2);
         const double sigma = pattern.uniform(1.5, 5), height_of = pattern.uniform() < 0.5 ? -0.4 : 0.4;
-        const auto from = [&](double middle) { return std::max(0, int(middle - 5 * sigma)); };
-        const auto to = [&](double middle, int size) { return std::min(size, int(middle + 5 * sigma) + 1); };
-        for (int v = from(y); v < to(y, height); ++v)
-            for (int u = from(x); u < to(x, width); ++u)
+        const int reach = int(5 * sigma) + 1;  // beyond it a blob is nothing
+        for (int v = std::max(0, int(y) - reach); v < std::min(height, int(y) + reach); ++v)
+            for (int u = std::max(0, int(x) - reach); u < std::min(width, int(x) + reach); ++u)
                 image.frame.gray(u, v) += float(
                     height_of * std::exp(-((u - x) * (u - x) + (v - y) * (v - y)) / (2 * sigma * sigma)));
     }

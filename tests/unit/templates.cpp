@@ -99,7 +99,7 @@ TEST_CASE("templates judge and place what votes propose") {
             CHECK(two.objects[i].score == found.objects[i].score);
             CHECK(two.objects[i].box == found.objects[i].box);
         }
-        if (class_index > 0) continue;
+        if (class_index > 0) continue;  // the least probability is one for all classes
         auto probable = recognition;
         probable.options.min_probability = 0.5;
         const auto sure = ism::detect(model, test.frame, probable, 1);
