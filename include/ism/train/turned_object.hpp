@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +21,7 @@ struct TurnedObject {
     Box box;  ///< in the picture
 };
 
-/// Colours between pixels by bilinear interpolation, row after row of three numbers; outside the edge is
-/// repeated.
+/// Colours between pixels by bilinear interpolation; outside the edge is repeated.
 class ColorSampler {
 public:
     /// The part of an image that is in a box, or the pixel nearest to it, at `factor` ≤ 1 times its size.
@@ -30,38 +30,34 @@ public:
         left_ = within(box.x, image.width() - 1), top_ = within(box.y, image.height() - 1);
         const int width = std::max(1, within(std::ceil(box.x + box.width), image.width()) - left_),
                   height = std::max(1, within(std::ceil(box.y + box.height), image.height()) - top_);
-        numbers_.reserve(std::size_t(width) * std::size_t(height) * 3);
+        std::vector<float> numbers;
+        numbers.reserve(std::size_t(width) * std::size_t(height) * 3);
         for (int y = 0; y < height; ++y)
             for (const Rgb c : image.row(top_ + y).subspan(std::size_t(left_), std::size_t(width)))
-                numbers_.insert(numbers_.end(), {float(c.r), float(c.g), float(c.b)});
-        columns_ = std::max(1, int(std::lround(width * factor)));
-        rows_ = std::max(1, int(std::lround(height * factor)));
-        across_ = double(columns_) / width, down_ = double(rows_) / height;
-        numbers_ = resize_area(numbers_, width, height, 3, columns_, rows_);
+                numbers.insert(numbers.end(), {float(c.r), float(c.g), float(c.b)});
+        const int columns = std::max(1, int(std::lround(width * factor))),
+                  rows = std::max(1, int(std::lround(height * factor)));
+        across_ = double(columns) / width, down_ = double(rows) / height;
+        numbers = resize_area(numbers, width, height, 3, columns, rows);
+        for (std::size_t k = 0; k < 3; ++k) {
+            planes_[k] = GrayImage(columns, rows);
+            const auto pixels = planes_[k].pixels();
+            for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = numbers[3 * i + k];
+        }
     }
 
     /// Around a place in the image, where pixel (x, y) reaches from there to (x + 1, y + 1).
     [[nodiscard]] Rgb operator()(double x, double y) const {
-        const double u = std::clamp((x - left_) * across_ - 0.5, 0.0, columns_ - 1.0),
-                     v = std::clamp((y - top_) * down_ - 0.5, 0.0, rows_ - 1.0);
-        const int i = int(u), j = int(v), right = std::min(i + 1, columns_ - 1),
-                  below = std::min(j + 1, rows_ - 1);
-        const double p = u - i, q = v - j;
-        const float *a = pixel(i, j), *b = pixel(right, j), *c = pixel(i, below), *d = pixel(right, below);
-        const auto mixed = [&](int k) {
-            return std::uint8_t((1 - q) * ((1 - p) * a[k] + p * b[k]) + q * ((1 - p) * c[k] + p * d[k]) +
-                                0.5);
+        const float u = float((x - left_) * across_ - 0.5), v = float((y - top_) * down_ - 0.5);
+        const auto mixed = [&](std::size_t k) {
+            return std::uint8_t(sample_bilinear(planes_[k], u, v) + 0.5f);
         };
         return {mixed(0), mixed(1), mixed(2)};
     }
 
 private:
-    [[nodiscard]] const float* pixel(int column, int row) const {
-        return &numbers_[(std::size_t(row) * std::size_t(columns_) + std::size_t(column)) * 3];
-    }
-
-    std::vector<float> numbers_;
-    int left_ = 0, top_ = 0, columns_ = 0, rows_ = 0;
+    std::array<GrayImage, 3> planes_ = {};
+    int left_ = 0, top_ = 0;
     double across_ = 1, down_ = 1;
 };
 
