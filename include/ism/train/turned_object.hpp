@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ism/core/box_region.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
 #include "ism/core/resize_area.hpp"
@@ -24,21 +25,14 @@ struct TurnedObject {
 /// Colours between pixels by bilinear interpolation; outside the edge is repeated.
 class ColorSampler {
 public:
-    /// The part of an image that is in a box, or the pixel nearest to it, at `factor` ≤ 1 times its size.
-    ColorSampler(ImageView<const Rgb> image, const Box& box, double factor) {
-        const auto within = [](double place, int size) { return int(std::clamp(place, 0.0, double(size))); };
-        left_ = within(box.x, image.width() - 1), top_ = within(box.y, image.height() - 1);
-        const int width = std::max(1, within(std::ceil(box.x + box.width), image.width()) - left_),
-                  height = std::max(1, within(std::ceil(box.y + box.height), image.height()) - top_);
-        std::vector<float> numbers;
-        numbers.reserve(std::size_t(width) * std::size_t(height) * 3);
-        for (int y = 0; y < height; ++y)
-            for (const Rgb c : image.row(top_ + y).subspan(std::size_t(left_), std::size_t(width)))
-                numbers.insert(numbers.end(), {float(c.r), float(c.g), float(c.b)});
-        const int columns = std::max(1, int(std::lround(width * factor))),
-                  rows = std::max(1, int(std::lround(height * factor)));
-        across_ = double(columns) / width, down_ = double(rows) / height;
-        numbers = resize_area(numbers, width, height, 3, columns, rows);
+    /// A region of an image at `factor` ≤ 1 times its size.
+    ColorSampler(ImageView<const Rgb> image, const BoxRegion& region, double factor)
+        : left_(region.x), top_(region.y) {
+        const int columns = std::max(1, int(std::lround(region.width * factor))),
+                  rows = std::max(1, int(std::lround(region.height * factor)));
+        across_ = double(columns) / region.width, down_ = double(rows) / region.height;
+        const std::vector<float> numbers =
+            resize_area(region_colors(image, region), region.width, region.height, 3, columns, rows);
         for (std::size_t k = 0; k < 3; ++k) {
             planes_[k] = GrayImage(columns, rows);
             const auto pixels = planes_[k].pixels();
@@ -57,7 +51,7 @@ public:
 
 private:
     std::array<GrayImage, 3> planes_ = {};
-    int left_ = 0, top_ = 0;
+    int left_, top_;
     double across_ = 1, down_ = 1;
 };
 
@@ -74,8 +68,9 @@ private:
                  x = box.x + box.width / 2, y = box.y + box.height / 2;
     const double seen_width = width * std::abs(cosine) + height * std::abs(sine),
                  seen_height = width * std::abs(sine) + height * std::abs(cosine);
-    const ColorSampler color(image, {x - seen_width / 2, y - seen_height / 2, seen_width, seen_height},
-                             factor);
+    const BoxRegion seen({x - seen_width / 2, y - seen_height / 2, seen_width, seen_height}, 0, image.width(),
+                         image.height());
+    const ColorSampler color(image, seen, factor);
     TurnedObject turned{
         .picture = RgbImage(int(std::ceil(width * factor)), int(std::ceil(height * factor))),
         .box = {margin * side * factor, margin * side * factor, box.width * factor, box.height * factor}};
