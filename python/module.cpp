@@ -21,8 +21,7 @@
 
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/to_results.hpp"
-#include "ism/detect/frame_matcher.hpp"
-#include "ism/detect/metric.hpp"
+#include "ism/detect/detection.hpp"
 #include "ism/model_file/model_file.hpp"
 #include "ism/version.hpp"
 
@@ -126,7 +125,7 @@ public:
 
     [[nodiscard]] py::object detect(const py::object& image, const py::object& depth,
                                     const py::object& camera, std::int64_t image_id, const std::string& space,
-                                    std::optional<double> min_score, double depth_scale,
+                                    std::optional<double> min_score, int turns, double depth_scale,
                                     const std::string& order, unsigned threads) const {
         Arrays arrays{numpy_pixels(image, "image", is_bgr(order)), {}, depth_scale};
         if (!depth.is_none()) arrays.depth = numpy_pixels(depth, "depth");
@@ -139,10 +138,13 @@ public:
             const py::gil_scoped_release released;
             const ism::Frame frame = to_frame(arrays, seen_by);
             const bool with_depth = !frame.depth_m.empty() && frame.camera;
-            program::SearchOptions search{.space = space, .min_score = min_score};
+            program::SearchOptions search{.space = space, .min_score = min_score, .turns = turns};
             if (space == program::auto_space)
-                search.space = !model.rgbd.empty() && with_depth ? program::metric_space : "jism";
+                search.space =
+                    !model.rgbd.empty() && with_depth && turns == 1 ? program::metric_space : "jism";
             const bool metric = search.space == program::metric_space;
+            ism::expect(!metric || turns == 1, "turns", "1 in the space metric, which finds what is turned",
+                        turns);
             ism::expect(!metric || !model.rgbd.empty(), "space metric",
                         "a model learnt from images with depth and camera", "one without");
             ism::expect(!metric || with_depth, "space metric", "an image with depth and camera",
@@ -151,10 +153,7 @@ public:
                         ism::lazy_text("space ", search.space), "an image with depth", "one without");
             const ism::Model& used = metric ? model.rgbd.front() : model;
             ism::ThreadPool pool(threads);
-            ism::FrameMatcher matcher(used, program::extractors_of(used), pool);
-            ism::Scene scene =
-                metric ? matcher.scene(frame, ism::match_in<ism::Metric>()) : matcher.scene(frame);
-            const ism::Detections found = program::find_objects(std::move(scene), search);
+            const ism::Detections found = program::Matcher(used, pool).find(frame, search);
             results = ism::to_results(found,
                                       {.id = image_id,
                                        .file = {},
@@ -265,7 +264,7 @@ PYBIND11_MODULE(_ism, module) {
 
     py::class_<PythonModel>(module, "Model", "What train() learnt and detect() needs.")
         .def("detect", &PythonModel::detect, "image"_a, "depth"_a = py::none(), "camera"_a = py::none(),
-             py::kw_only(), "image_id"_a = 1, "space"_a = "auto", "min_score"_a = py::none(),
+             py::kw_only(), "image_id"_a = 1, "space"_a = "auto", "min_score"_a = py::none(), "turns"_a = 1,
              "depth_scale"_a = 0.001, "order"_a = "rgb", "threads"_a = 0,
              "Finds the objects of an image: a list of COCO results, strongest first.")
         .def("save", &PythonModel::save, "path"_a, "Writes the model as a safetensors file.")

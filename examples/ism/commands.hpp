@@ -63,6 +63,7 @@ struct SearchOptions {
     std::optional<double> keep = {};       ///< none = the library's
     std::optional<double> min_score = {};  ///< least probability of what is told; none = default_min_score
                                            ///< where templates judge, else 0
+    int turns = 1;                         ///< angles by which images are turned
     bool explain = false;                  ///< also tell what templates saw, to be drawn
 };
 

@@ -34,7 +34,7 @@ constexpr std::size_t report_images = 12, report_rows = 2;
 /// Whether --space auto can choose metric: the model knows it, and nothing is asked for that is not of it.
 bool metric_allowed(const ism::Model& model, const SearchOptions& search) {
     return !model.rgbd.empty() && search.rescorer == "auto" && search.verifier == "auto" &&
-           search.segmenter == "auto";
+           search.segmenter == "auto" && search.turns == 1;
 }
 
 /// The space in which a frame is searched.
@@ -320,6 +320,8 @@ void sum_up_data(const DetectCommand& command, const DetectInput& input, const O
 void run_detect(const DetectCommand& command) {
     const Stopwatch watch;
     const ImageList list(command.images);
+    ism::expect(command.search.turns == 1 || command.search.space != metric_space, "--turns",
+                "1 in the space metric, which finds what is turned", command.search.turns);
     check_outputs(command, list);
     Overlays overlays;
     if (command.show) overlays.beside = overlay_files(list.images());

@@ -131,9 +131,9 @@ and its standard error, in metres; - where something is not known. With --data t
 asked for.
 
 --json: one object an image: file, width, height, detections [class, category_id, probability, score, scale,
-bbox, segmentation (COCO run lengths), and where they are known depth_m, position_m, position_error_m];
-image_id of a data set; next_best, the most probable guess, where nothing was found. Lines to a pipe go out as
-soon as their image is done, in the order of the images.
+bbox, segmentation (COCO run lengths), and where they are known depth_m, position_m, position_error_m,
+angle_rad of what is turned, from x towards y]; image_id of a data set; next_best, the most probable guess,
+where nothing was found. Lines to a pipe go out as soon as their image is done, in the order of the images.
 
 Category ids are those of the data that the model was trained on (1, 2, ... where it does not know them), also
 with --data; image ids are those of the data, of images on the command line 1, 2, ...
@@ -213,6 +213,9 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
              "picture, or the patches of votes; auto: exemplars where the model has them, else patches"),
          {"auto", "exemplars", "patches"})
         ->capture_default_str();
+    add_number(app, "--turns", command.search.turns, between(1, 360),
+               "look at each image turned by so many angles: finds objects that lie turned by a model that "
+               "knows them upright; 24 for any angle, which takes 24 times as long");
     app.add_option("--overlay", command.overlay_folder, "folder for pictures of what was found and why");
     app.add_option("--report", command.report, "HTML page to write");
     add_report_images(app, command.page);

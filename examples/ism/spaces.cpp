@@ -8,6 +8,7 @@
 
 #include "extractors.hpp"
 
+#include "ism/detect/detect_turned.hpp"
 #include "ism/detect/exemplar_segmenter.hpp"
 #include "ism/detect/metric_recognition.hpp"
 #include "ism/detect/recognition.hpp"
@@ -128,7 +129,10 @@ ism::Detections find_objects(ism::Scene scene, const SearchOptions& search) {
 }
 
 ism::Detections Matcher::find(const ism::Frame& frame, const SearchOptions& search) {
-    return find_objects(scene(frame, search.space), search);
+    const auto find_in_frame = [&](const ism::Frame& shown) {
+        return find_objects(scene(shown, search.space), search);
+    };
+    return search.turns > 1 ? ism::detect_turned(frame, search.turns, find_in_frame) : find_in_frame(frame);
 }
 
 bool needs_depth(std::string_view space) {

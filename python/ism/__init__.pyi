@@ -32,6 +32,7 @@ class Result(_ResultBase, total=False):
     depth_m: float
     position_m: List[float]  # x right, y down, z forward of the camera
     position_error_m: float  # standard error
+    angle_rad: float  # of what is turned, from x towards y
 
 class Error(ValueError): ...
 
@@ -46,6 +47,7 @@ class Model:
         image_id: int = 1,
         space: str = "auto",
         min_score: Optional[float] = None,
+        turns: int = 1,  # angles by which the image is looked at
         depth_scale: float = 0.001,
         order: str = "rgb",
         threads: int = 0,

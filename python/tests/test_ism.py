@@ -181,6 +181,10 @@ def test_templates_and_depth():
     assert found and abs(found[0]["position_m"][2] - 1.0) < 0.05
     units = (depth * 1000).astype(np.uint16)
     assert learnt.detect(picture(50, 10), units, camera, min_score=0)[0]["bbox"] == found[0]["bbox"]
+    with pytest.raises(ValueError, match="turns: expected 1 in the space metric, which finds what is turned, got 4"):
+        learnt.detect(picture(50, 10), depth, camera, space="metric", turns=4)
+    turned = learnt.detect(np.rot90(picture(50, 10)).copy(), turns=4)
+    assert turned and abs(turned[0]["angle_rad"] + np.pi / 2) < 0.1
     with pytest.raises(ValueError, match="space metric: expected an image with depth and camera, got one without"):
         learnt.detect(picture(50, 10), space="metric")
     with pytest.raises(ValueError, match="depth image size: expected 128x128, got 10x10"):

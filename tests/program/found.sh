@@ -62,6 +62,17 @@ else
     echo "found: no terminal can be made here: the table is left out"
 fi
 
+# Where the image is turned, too, what stands upright is still found, and what lies there has an angle.
+"${detect[@]}" photos/0.png --min-score 0 --json - >upright.txt 2>/dev/null
+"${detect[@]}" photos/0.png --min-score 0 --turns 4 --json - >turned.txt 2>/dev/null
+! grep -q '"angle_rad":' upright.txt || fail "angles of what is upright: $(cat upright.txt)"
+says '"angle_rad":' turned.txt
+says "$(grep -oE '"bbox":[^]]*\]' upright.txt | head -1)" turned.txt
+! "${detect[@]}" photos/0.png --turns 0 2>said.txt || fail "--turns 0 is taken"
+says "--turns: expected a whole number, from 1 to 360, got '0'" said.txt
+! "${detect[@]}" photos/0.png --turns 4 --space metric 2>said.txt || fail "--turns 4 --space metric is taken"
+says "--turns: expected 1 in the space metric, which finds what is turned, got 4" said.txt
+
 # JSON, a line an image, with the numbers of the training file; the same as COCO results.
 "${detect[@]}" photos/0.png photos/1.png --json - >json.txt 2>/dev/null
 (($(wc -l <json.txt) == 2)) || fail "--json: expected two lines, got: $(cat json.txt)"

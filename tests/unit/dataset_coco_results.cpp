@@ -42,6 +42,7 @@ TEST_CASE("Results that are written come back equal") {
          .depth_m = 1.3,
          .scale = 0.7,
          .position_error_m = 0.02,
+         .angle_rad = -0.25,
          .class_name = "tea cup"}};
     ism::write_results(folder / "r.json", results);
     const std::vector<Result> read = ism::read_results(folder / "r.json");
@@ -54,6 +55,7 @@ TEST_CASE("Results that are written come back equal") {
         CHECK(read[i].segmentation == results[i].segmentation);
         CHECK(read[i].position_m == results[i].position_m);
         CHECK(read[i].scale == results[i].scale);
+        CHECK(read[i].angle_rad == results[i].angle_rad);
         CHECK(std::isnan(read[i].probability) == std::isnan(results[i].probability));
         if (!std::isnan(results[i].probability)) CHECK(read[i].probability == results[i].probability);
     }
@@ -65,6 +67,7 @@ TEST_CASE("Results that are written come back equal") {
     const std::string text = ism::read_text(folder / "r.json");  // what is not known is not there
     CHECK(text.find("null") == std::string::npos);
     CHECK(text.find("depth_m") == text.rfind("depth_m"));
+    CHECK(text.find("angle_rad") == text.rfind("angle_rad"));
 
     ism::write_results(folder / "none.json", std::vector<Result>{});
     CHECK(ism::read_results(folder / "none.json").empty());
@@ -98,6 +101,8 @@ TEST_CASE("Results that make no sense are refused with the place") {
           ", result 1: depth_m: expected metres above 0, got -1");
     CHECK(results_error(good + R"(,"position_error_m":-1}])") ==
           ", result 1: position_error_m: expected metres, 0 or more, got -1");
+    CHECK(results_error(good + R"(,"angle_rad":"up"}])") ==
+          ", result 1: angle_rad: expected a number, got \"up\"");
     CHECK(results_error(good + R"(,"class":7}])") == ", result 1: class: expected a text, got 7");
     CHECK(results_error(good + R"(,"scale":0}])") == ", result 1: scale: expected a number above 0, got 0");
     CHECK(results_error(good + R"(,"probability":1.5}])") ==

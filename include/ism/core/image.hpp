@@ -184,4 +184,19 @@ template <Pixel T>
            ay * ((1 - ax) * image(x0, y1) + ax * image(x1, y1));
 }
 
+/// @brief The colour between pixels, likewise.
+[[nodiscard]] inline Rgb sample_bilinear(ImageView<const Rgb> image, float x, float y) {
+    const float cx = std::min(std::max(0.0f, x), static_cast<float>(image.width() - 1));
+    const float cy = std::min(std::max(0.0f, y), static_cast<float>(image.height() - 1));
+    const int x0 = static_cast<int>(cx), y0 = static_cast<int>(cy);
+    const int x1 = x0 + 1 < image.width() ? x0 + 1 : x0, y1 = y0 + 1 < image.height() ? y0 + 1 : y0;
+    const float ax = cx - static_cast<float>(x0), ay = cy - static_cast<float>(y0);
+    const auto mixed = [&](std::uint8_t Rgb::*channel) {
+        const float upper = (1 - ax) * image(x0, y0).*channel + ax * image(x1, y0).*channel;
+        const float lower = (1 - ax) * image(x0, y1).*channel + ax * image(x1, y1).*channel;
+        return static_cast<std::uint8_t>((1 - ay) * upper + ay * lower + 0.5f);
+    };
+    return {mixed(&Rgb::r), mixed(&Rgb::g), mixed(&Rgb::b)};
+}
+
 }  // namespace ism

@@ -34,6 +34,7 @@ struct Result {
     double depth_m = no_depth;              ///< along the optical axis, metres; NaN = not known
     double scale = 1;                       ///< size relative to the reference size of its class
     double position_error_m = std::numeric_limits<double>::quiet_NaN();  ///< standard error; NaN = not known
+    double angle_rad = 0;         ///< turned by so much from x towards y; 0 = upright, or not known
     std::string class_name = {};  ///< what category_id stands for; empty = not told
 };
 
@@ -74,6 +75,8 @@ namespace detail {
         if (!(result.position_error_m >= 0))
             refuse_json(place, "position_error_m", "metres, 0 or more", json_text(*error));
     }
+    if (const Json* angle = optional_member(record, "angle_rad", place))
+        result.angle_rad = to_number(*angle, "angle_rad", place);
     if (const Json* name = optional_member(record, "class", place))
         result.class_name = to_text(*name, "class", place);
     return result;
@@ -92,6 +95,7 @@ namespace detail {
     if (result.position_m) record["position_m"] = position_to_json(*result.position_m);
     if (result.position_m && !std::isnan(result.position_error_m))
         record["position_error_m"] = result.position_error_m;
+    if (result.angle_rad != 0) record["angle_rad"] = result.angle_rad;
     return record;
 }
 
@@ -111,7 +115,7 @@ namespace detail {
 
 /// @brief Writes results as COCO's array, one record a line: image_id, category_id, bbox, score, segmentation
 /// {size, counts}; beside these scale and, where they are known, class (its name), probability, depth_m,
-/// position_m [x, y, z] and position_error_m.
+/// position_m [x, y, z], position_error_m and, of what is turned, angle_rad.
 /// @throws FileError where the file cannot be written, or read_results() would refuse it; nothing is written
 /// then.
 inline void write_results(const std::filesystem::path& path, std::span<const Result> results) {

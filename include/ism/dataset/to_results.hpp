@@ -40,7 +40,8 @@ namespace ism {
              .position_m = found.position_m,
              .depth_m = found.depth_m,
              .scale = found.scale,
-             .position_error_m = found.position_error_m});
+             .position_error_m = found.position_error_m,
+             .angle_rad = found.angle});
     }
     return results;
 }
