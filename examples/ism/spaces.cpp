@@ -52,14 +52,23 @@ struct ChosenVerifier {
     }
 };
 
+/// Whether templates judge; words do otherwise.
+bool with_templates(const SearchOptions& search, const ism::Model& model) {
+    return search.rescorer == "template" || (search.rescorer == "auto" && !model.templates.empty());
+}
+
+/// The least probability of what is told.
+double min_probability(const SearchOptions& search, const ism::Model& model) {
+    return search.min_score.value_or(with_templates(search, model) ? default_min_score : 0);
+}
+
 template <ism::VoteSpaceType Space>
 ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
     ism::Recognition<Space, ism::EpanechnikovKernel, ChosenRescorer, ChosenSegmenter, ChosenVerifier>
         recognition;
     // Templates judge what votes propose, also weakly, and place boxes that are apart; words judge what votes
     // are sure of.
-    const bool templates =
-        search.rescorer == "template" || (search.rescorer == "auto" && !scene.model.templates.empty());
+    const bool templates = with_templates(search, scene.model);
     ism::expect(!templates || !scene.model.templates.empty(), "--rescore template", "a model with templates",
                 "one without");
     ism::expect(search.segmenter != "exemplars" || !scene.model.exemplars.empty(), "--segment exemplars",
@@ -74,7 +83,7 @@ ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
     if (templates)
         recognition.options = ism::proposal_options(),
         recognition.bandwidth = ism::proposal_bandwidth<Space>();
-    recognition.options.min_probability = search.min_score.value_or(templates ? default_min_score : 0);
+    recognition.options.min_probability = min_probability(search, scene.model);
     recognition.options.min_relative_score = search.keep.value_or(recognition.options.min_relative_score);
     return ism::recognise(std::move(scene), recognition);
 }
@@ -132,7 +141,10 @@ ism::Detections Matcher::find(const ism::Frame& frame, const SearchOptions& sear
     const auto find_in_frame = [&](const ism::Frame& shown) {
         return find_objects(scene(shown, search.space), search);
     };
-    return search.turns > 1 ? ism::detect_turned(frame, search.turns, find_in_frame) : find_in_frame(frame);
+    if (search.turns == 1) return find_in_frame(frame);
+    return ism::detect_turned(
+        frame, {.turns = search.turns, .min_probability = min_probability(search, matcher_.model())},
+        find_in_frame);
 }
 
 bool needs_depth(std::string_view space) {

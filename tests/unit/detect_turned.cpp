@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -109,8 +110,8 @@ TEST_CASE("a frame turned by a right angle has the same pixels, and no depth bey
 TEST_CASE("what is only known upright is found turned, where and how it lies") {
     const ism::Box whole{40, 12, 8, 24};
     const ism::Frame frame = bar(64, 48, whole, {40, 12, 8, 6});  // bright above: turned by a quarter
-    CHECK(ism::detect_turned(frame, 1, find_bar).objects.empty());
-    const ism::Detections found = ism::detect_turned(frame, 4, find_bar);
+    CHECK(ism::detect_turned(frame, {.turns = 1}, find_bar).objects.empty());
+    const ism::Detections found = ism::detect_turned(frame, {.turns = 4}, find_bar);
     REQUIRE(found.objects.size() == 1);
     const ism::Detection& object = found.objects[0];
     CHECK(object.angle == Approx(right_angle));
@@ -125,12 +126,12 @@ TEST_CASE("what is only known upright is found turned, where and how it lies") {
     CHECK(found.stats.hypotheses == 4);
 
     const ism::Detections half =
-        ism::detect_turned(bar(64, 48, {20, 30, 24, 8}, {38, 30, 6, 8}), 4, find_bar);
+        ism::detect_turned(bar(64, 48, {20, 30, 24, 8}, {38, 30, 6, 8}), {.turns = 4}, find_bar);
     REQUIRE(half.objects.size() == 1);
     CHECK(std::abs(half.objects[0].angle) == Approx(2 * right_angle));
     CHECK(half.objects[0].box == ism::Box{20, 30, 24, 8});
     const ism::Detections upright =
-        ism::detect_turned(bar(64, 48, {20, 30, 24, 8}, {20, 30, 6, 8}), 4, find_bar);
+        ism::detect_turned(bar(64, 48, {20, 30, 24, 8}, {20, 30, 6, 8}), {.turns = 4}, find_bar);
     REQUIRE(upright.objects.size() == 1);
     CHECK(upright.objects[0].angle == 0);
 }
@@ -138,7 +139,7 @@ TEST_CASE("what is only known upright is found turned, where and how it lies") {
 TEST_CASE("of objects at one place that are found in several turns the strongest stays") {
     const ism::Frame frame{.gray = ism::GrayImage(64, 48), .camera = ism::Camera{60, 60, 32, 24}};
     int looks = 0, cameras = 0;
-    const auto found = ism::detect_turned(frame, 12, [&](const ism::Frame& turned) {
+    const auto found = ism::detect_turned(frame, {.turns = 12}, [&](const ism::Frame& turned) {
         const double x = (turned.gray.width() - 1) / 2.0, y = (turned.gray.height() - 1) / 2.0;
         ism::Detection middle, corner;
         middle.centre = {x, y}, middle.box = ism::box_around(middle.centre, 20, 20);
@@ -161,9 +162,47 @@ TEST_CASE("of objects at one place that are found in several turns the strongest
     CHECK(found.next_best->probability == 0.04);
 }
 
+TEST_CASE("what templates judged yields to what is more probable at another angle") {
+    const ism::Frame frame{.gray = ism::GrayImage(64, 48)};
+    // Class 0 is seen upright with odds of e, class 1 upside down with e^3, both in the middle.
+    const auto seen = [&](double min_probability) {
+        int looks = 0;
+        return ism::detect_turned(
+            frame, {.turns = 2, .min_probability = min_probability}, [&](const ism::Frame&) {
+                ism::Detection object;
+                object.box = {22, 14, 20, 20}, object.centre = object.box.centre();
+                object.class_index = std::uint32_t(looks);
+                object.box_reasons = {.look = looks == 0 ? 0.5 : 2.5, .any = 0.5, .rivals = -0.25};
+                object.score = 7;  // in units of the class: says nothing beside the other
+                object.probability = 0.6;
+                ++looks;
+                return ism::Detections{.objects = {object}};
+            });
+    };
+    const ism::Detections all = seen(0);
+    REQUIRE(all.objects.size() == 2);
+    CHECK(all.objects[0].class_index == 1);
+    CHECK(all.objects[0].box_reasons.rivals == 0);
+    CHECK(all.objects[0].score == Approx(std::exp(3)));
+    CHECK(all.objects[0].probability == Approx(1 / (1 + std::exp(-3))));
+    CHECK(all.objects[1].class_index == 0);
+    CHECK(all.objects[1].box_reasons.rivals == Approx(-1));  // half of what the other leads by
+    CHECK(all.objects[1].score == Approx(1));
+    CHECK(all.objects[1].probability == Approx(0.5));
+
+    const ism::Detections told = seen(0.55);
+    REQUIRE(told.objects.size() == 1);
+    CHECK(told.objects[0].class_index == 1);
+    REQUIRE(told.next_best.has_value());
+    CHECK(told.next_best->class_index == 0);
+    CHECK(told.next_best->probability == Approx(0.5));
+}
+
 TEST_CASE("turns that are none are refused") {
     const ism::Frame frame{.gray = ism::GrayImage(64, 48)};
-    CHECK_THROWS_AS(ism::detect_turned(frame, 0, find_bar), ism::Error);
-    CHECK_THROWS_AS(ism::detect_turned(frame, 361, find_bar), ism::Error);
-    CHECK_THROWS_AS(ism::detect_turned(ism::Frame{}, 4, find_bar), ism::Error);
+    CHECK_THROWS_AS(ism::detect_turned(frame, {.turns = 0}, find_bar), ism::Error);
+    CHECK_THROWS_AS(ism::detect_turned(frame, {.turns = 361}, find_bar), ism::Error);
+    CHECK_THROWS_AS(ism::detect_turned(frame, {.rival_share = 1.5}, find_bar), ism::Error);
+    CHECK_THROWS_AS(ism::detect_turned(frame, {.min_probability = -0.1}, find_bar), ism::Error);
+    CHECK_THROWS_AS(ism::detect_turned(ism::Frame{}, {.turns = 4}, find_bar), ism::Error);
 }

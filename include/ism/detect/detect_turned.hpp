@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "ism/core/image_turn.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/move_to.hpp"
+#include "ism/detect/rivals.hpp"
 #include "ism/detect/verify.hpp"
 #include "ism/feature/feature.hpp"
 
@@ -87,6 +89,22 @@ namespace detail {
     return object;
 }
 
+/// Objects seen at all angles yield to their rivals as those of one angle do. Their score becomes the odds,
+/// in which classes compare.
+inline void yield_across_turns(std::vector<Detection>& objects, double share) {
+    const std::vector<double> leads = rival_leads(objects);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        Detection& object = objects[i];
+        object.box_reasons.rivals = -share * leads[i];
+        object.score = std::exp(object.box_reasons.sum());
+        object.probability = object.score / (1 + object.score);
+    }
+}
+
+inline void keep_more_probable(std::optional<Detection>& best, Detection other) {
+    if (!best || other.probability > best->probability) best = std::move(other);
+}
+
 inline void add_stats(DetectionStats& sum, const DetectionStats& more) {
     sum.features += more.features, sum.matches += more.matches, sum.votes += more.votes;
     sum.hypotheses += more.hypotheses, sum.candidates += more.candidates, sum.segmented += more.segmented;
@@ -96,23 +114,39 @@ inline void add_stats(DetectionStats& sum, const DetectionStats& more) {
 
 }  // namespace detail
 
+/// @brief At how many angles detect_turned() looks, and which of what it finds it tells.
+struct TurnOptions {
+    int turns = 24;  ///< 1 … 360, evenly over the circle; templates find what is turned by about 7 degrees
+    double rival_share = default_rival_share;  ///< as TemplateScore's, of objects seen at any angle
+    double min_probability = 0;                ///< as DetectOptions::min_probability
+};
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const TurnOptions& options) {
+    expect(options.turns >= 1 && options.turns <= 360, "turns", "1 ... 360", options.turns);
+    expect(options.rival_share >= 0 && options.rival_share <= 1, "TurnOptions::rival_share", "0 ... 1",
+           options.rival_share);
+    expect(options.min_probability >= 0 && options.min_probability <= 1, "TurnOptions::min_probability",
+           "0 ... 1", options.min_probability);
+}
+
 /// @brief Finds objects however they are turned in the image by a model that knows them upright: looks at the
-/// frame turned by so many angles, evenly over the full circle, and of what it finds at one place the
-/// strongest stays, whatever its class. It takes as many times as long. Turned objects have their
-/// Detection::angle and the box of their mask, and no Detection::cells; of depth they have what features see.
-/// @param turns  1 … 360; templates find what is turned by about 7 degrees, for which 24 suffice
-/// @param find   Detections find(const Frame&), such as a lambda that calls FrameDetector::detect(); the
-/// first
-///               frame is the one given, the others have no camera
-/// @throws Error for a frame that check(Frame) refuses, or turns out of range.
+/// frame turned by each angle, and of what it finds at one place the strongest stays: of each class, which
+/// yields to more probable ones, where templates judge, and of all classes otherwise. It takes as many times
+/// as long. Turned objects have their Detection::angle and the box of their mask, and no Detection::cells; of
+/// depth they have what features see.
+/// @param find   Detections find(const Frame&), such as a lambda that calls FrameDetector::detect(); it is
+///               given the frame itself first, then turned ones without camera
+/// @throws Error for a frame that check(Frame) refuses, or an option out of range.
 template <Callable<const Frame&> Find>
-[[nodiscard]] Detections detect_turned(const Frame& frame, int turns, const Find& find) {
-    expect(turns >= 1 && turns <= 360, "turns", "1 ... 360", turns);
+[[nodiscard]] Detections detect_turned(const Frame& frame, const TurnOptions& options, const Find& find) {
+    check(options);
     check(frame);
     Detections all = find(frame);
-    if (turns == 1) return all;
-    for (int k = 1; k < turns; ++k) {
-        const double angle_rad = 2 * std::numbers::pi * k / turns;
+    if (options.turns == 1) return all;
+    for (int k = 1; k < options.turns; ++k) {
+        const double angle_rad = 2 * std::numbers::pi * k / options.turns;
         const ImageTurn turn(frame.gray.width(), frame.gray.height(), -angle_rad);
         Detections found = find(turned_frame(frame, turn));
         const auto first = std::uint32_t(all.features.size());
@@ -129,14 +163,22 @@ template <Callable<const Frame&> Find>
         for (Detection& object : found.objects)
             if (auto here = back(std::move(object))) all.objects.push_back(std::move(*here));
         if (found.next_best)
-            if (auto here = back(std::move(*found.next_best));
-                here && (!all.next_best || here->probability > all.next_best->probability))
-                all.next_best = std::move(here);
+            if (auto here = back(std::move(*found.next_best)))
+                detail::keep_more_probable(all.next_best, std::move(*here));
         detail::add_stats(all.stats, found.stats);
     }
+    const bool judged = std::none_of(all.objects.begin(), all.objects.end(),
+                                     [](const Detection& object) { return object.box_reasons.empty(); });
+    if (judged) detail::yield_across_turns(all.objects, options.rival_share);
+    const NonMaximumSuppression suppression{.max_inside = 0.5, .across_classes = !judged};
     std::vector<Detection> strongest;
-    for (const Verified& verified : NonMaximumSuppression{.max_inside = 0.5}.verify(all.objects))
-        strongest.push_back(std::move(all.objects[verified.index]));
+    for (const Verified& verified : suppression.verify(all.objects)) {
+        Detection& object = all.objects[verified.index];
+        if (!(object.probability < options.min_probability))
+            strongest.push_back(std::move(object));
+        else
+            detail::keep_more_probable(all.next_best, std::move(object));
+    }
     all.objects = std::move(strongest);
     return all;
 }

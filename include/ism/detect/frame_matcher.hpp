@@ -73,6 +73,9 @@ public:
         }
     }
 
+    /// @brief The model that frames are matched to.
+    [[nodiscard]] const Model& model() const { return model_; }
+
     /// @brief A frame with its features, with depth where it has depth, and their matches.
     /// @param frame        has to stay as long as the scene
     /// @param match_words  as match_in() gives it

@@ -15,26 +15,39 @@ namespace ism {
 /// @brief What shares this much of its place with a box (IoU) is a rival of it, if of another class.
 inline constexpr double rival_iou = 0.25;
 
+/// @brief Share of its lead that a rival takes.
+inline constexpr double default_rival_share = 0.5;
+
+/// @brief By how much the most probable box of another class at about the same place leads each detection, in
+/// logarithms of odds; 0 where none does. What was lost to rivals before does not count.
+/// @param detections  with reasons of their boxes
+[[nodiscard]] inline std::vector<double> rival_leads(const std::vector<Detection>& detections) {
+    std::vector<double> odds, leads;
+    for (const Detection& d : detections) odds.push_back(d.box_reasons.sum() - d.box_reasons.rivals);
+    for (std::size_t i = 0; i < detections.size(); ++i) {
+        double strongest = odds[i];
+        for (std::size_t j = 0; j < detections.size(); ++j)
+            if (odds[j] > strongest && detections[j].class_index != detections[i].class_index &&
+                iou(detections[j].box, detections[i].box) >= rival_iou)
+                strongest = odds[j];
+        leads.push_back(strongest - odds[i]);
+    }
+    return leads;
+}
+
 /// @brief One place shows one object: where a box of another class at about the same place is more probable,
-/// a detection loses a share of the difference between the logarithms of their odds. The most probable stay
-/// as they are.
-/// @param detections   with reasons of their boxes
+/// a detection loses a share of its lead. The most probable stay as they are.
+/// @param detections   with reasons of their boxes, of which rivals have taken nothing yet
 /// @param calibration  that gave them their probabilities
 /// @param share        0 = none ... 1 = all
 inline void yield_to_rivals(std::vector<Detection>& detections, const Calibration& calibration,
                             double share) {
-    std::vector<double> odds;
-    for (const Detection& detection : detections) odds.push_back(detection.box_reasons.sum());
+    const std::vector<double> leads = rival_leads(detections);
     for (std::size_t i = 0; i < detections.size(); ++i) {
         Detection& detection = detections[i];
         const double slope = calibration.curves[detection.class_index].slope;
-        double strongest = odds[i];
-        for (std::size_t j = 0; j < detections.size(); ++j)
-            if (odds[j] > strongest && detections[j].class_index != detection.class_index &&
-                iou(detections[j].box, detection.box) >= rival_iou)
-                strongest = odds[j];
-        if (strongest == odds[i] || !(slope > 0)) continue;
-        detection.box_reasons.rivals = share * (odds[i] - strongest);
+        if (leads[i] == 0 || !(slope > 0)) continue;
+        detection.box_reasons.rivals = -share * leads[i];
         detection.score *= std::exp(detection.box_reasons.rivals / slope);
         detection.probability = calibration.probability(detection.class_index, detection.score);
     }

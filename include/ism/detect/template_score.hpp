@@ -39,9 +39,9 @@ struct TemplateScore {
     std::size_t max_classes = 8;  ///< that are asked about a hypothesis, those of most vote weight there
     double min_agreement =
         VotedBoxes::default_agreement;  ///< IoU of the box that a vote stands for with that of the detection
-    double rival_share = 0.5;  ///< of the lead of a more probable class at the same place, that a detection
-                               ///< loses, see yield_to_rivals()
-    bool explain = false;      ///< also tell which cells of a template speak for and against
+    double rival_share = default_rival_share;  ///< of the lead of a more probable class at the same place,
+                                               ///< that a detection loses, see yield_to_rivals()
+    bool explain = false;                      ///< also tell which cells of a template speak for and against
 
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene& scene) const;
 };
