@@ -13,6 +13,7 @@
 #include "ism/detect/metric_recognition.hpp"
 #include "ism/detect/recognition.hpp"
 #include "ism/detect/template_score.hpp"
+#include "ism/model/calibration.hpp"
 
 namespace program {
 
@@ -142,9 +143,10 @@ ism::Detections Matcher::find(const ism::Frame& frame, const SearchOptions& sear
         return find_objects(scene(shown, search.space), search);
     };
     if (search.turns == 1) return find_in_frame(frame);
+    const ism::Model& model = matcher_.model();
     return ism::detect_turned(
-        frame, {.turns = search.turns, .min_probability = min_probability(search, matcher_.model())},
-        find_in_frame);
+        frame, {.turns = search.turns, .min_probability = min_probability(search, model)}, find_in_frame,
+        with_templates(search, model) ? model.template_calibration : ism::Calibration{});
 }
 
 bool needs_depth(std::string_view space) {

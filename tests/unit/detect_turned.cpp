@@ -19,6 +19,7 @@
 #include "ism/core/image.hpp"
 #include "ism/core/image_turn.hpp"
 #include "ism/detect/detection.hpp"
+#include "ism/model/calibration.hpp"
 
 namespace {
 
@@ -164,30 +165,31 @@ TEST_CASE("of objects at one place that are found in several turns the strongest
 
 TEST_CASE("what templates judged yields to what is more probable at another angle") {
     const ism::Frame frame{.gray = ism::GrayImage(64, 48)};
-    // Class 0 is seen upright with odds of e, class 1 upside down with e^3, both in the middle.
+    // In the middle class 0 is seen upright with odds of e, class 1 upside down with e^3.
+    const ism::Calibration calibration{{{.slope = 2, .offset = 0.5}, {.slope = 2, .offset = 0.5}}};
     const auto seen = [&](double min_probability) {
         int looks = 0;
-        return ism::detect_turned(
-            frame, {.turns = 2, .min_probability = min_probability}, [&](const ism::Frame&) {
-                ism::Detection object;
-                object.box = {22, 14, 20, 20}, object.centre = object.box.centre();
-                object.class_index = std::uint32_t(looks);
-                object.box_reasons = {.look = looks == 0 ? 0.5 : 2.5, .any = 0.5, .rivals = -0.25};
-                object.score = 7;  // in units of the class: says nothing beside the other
-                object.probability = 0.6;
-                ++looks;
-                return ism::Detections{.objects = {object}};
-            });
+        const auto find = [&](const ism::Frame&) {
+            ism::Detection object;
+            object.box = {22, 14, 20, 20}, object.centre = object.box.centre();
+            object.class_index = std::uint32_t(looks);
+            object.box_reasons = {.look = looks == 0 ? 0.5 : 2.5, .any = 0.5, .rivals = -0.25};
+            object.score = std::exp((object.box_reasons.sum() - 0.5) / 2);
+            object.probability = calibration.probability(object.class_index, object.score);
+            ++looks;
+            return ism::Detections{.objects = {object}};
+        };
+        return ism::detect_turned(frame, {.turns = 2, .min_probability = min_probability}, find, calibration);
     };
     const ism::Detections all = seen(0);
     REQUIRE(all.objects.size() == 2);
     CHECK(all.objects[0].class_index == 1);
     CHECK(all.objects[0].box_reasons.rivals == 0);
-    CHECK(all.objects[0].score == Approx(std::exp(3)));
+    CHECK(all.objects[0].score == Approx(std::exp(1.25)));
     CHECK(all.objects[0].probability == Approx(1 / (1 + std::exp(-3))));
     CHECK(all.objects[1].class_index == 0);
     CHECK(all.objects[1].box_reasons.rivals == Approx(-1));  // half of what the other leads by
-    CHECK(all.objects[1].score == Approx(1));
+    CHECK(all.objects[1].score == Approx(std::exp(-0.25)));
     CHECK(all.objects[1].probability == Approx(0.5));
 
     const ism::Detections told = seen(0.55);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -22,6 +21,7 @@
 #include "ism/detect/rivals.hpp"
 #include "ism/detect/verify.hpp"
 #include "ism/feature/feature.hpp"
+#include "ism/model/calibration.hpp"
 
 namespace ism {
 
@@ -89,18 +89,6 @@ namespace detail {
     return object;
 }
 
-/// Objects seen at all angles yield to their rivals as those of one angle do. Their score becomes the odds,
-/// in which classes compare.
-inline void yield_across_turns(std::vector<Detection>& objects, double share) {
-    const std::vector<double> leads = rival_leads(objects);
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        Detection& object = objects[i];
-        object.box_reasons.rivals = -share * leads[i];
-        object.score = std::exp(object.box_reasons.sum());
-        object.probability = object.score / (1 + object.score);
-    }
-}
-
 inline void keep_more_probable(std::optional<Detection>& best, Detection other) {
     if (!best || other.probability > best->probability) best = std::move(other);
 }
@@ -132,15 +120,17 @@ inline void check(const TurnOptions& options) {
 }
 
 /// @brief Finds objects however they are turned in the image by a model that knows them upright: looks at the
-/// frame turned by each angle, and of what it finds at one place the strongest stays: of each class, which
-/// yields to more probable ones, where templates judge, and of all classes otherwise. It takes as many times
-/// as long. Turned objects have their Detection::angle and the box of their mask, and no Detection::cells; of
-/// depth they have what features see.
-/// @param find   Detections find(const Frame&), such as a lambda that calls FrameDetector::detect(); it is
-///               given the frame itself first, then turned ones without camera
+/// frame turned by each angle, and of what it finds at one place the strongest stays, of all classes; or,
+/// where the calibration of the model's templates is given, of each class, which yields to more probable ones
+/// as upright. It takes as many times as long. Turned objects have their Detection::angle and the box of
+/// their mask, and no Detection::cells; of depth they have what features see.
+/// @param find         Detections find(const Frame&), such as a lambda that calls FrameDetector::detect(); it
+///                     is given the frame itself first, then turned ones without camera
+/// @param calibration  Model::template_calibration where find() judges by templates
 /// @throws Error for a frame that check(Frame) refuses, or an option out of range.
 template <Callable<const Frame&> Find>
-[[nodiscard]] Detections detect_turned(const Frame& frame, const TurnOptions& options, const Find& find) {
+[[nodiscard]] Detections detect_turned(const Frame& frame, const TurnOptions& options, const Find& find,
+                                       const Calibration& calibration = {}) {
     check(options);
     check(frame);
     Detections all = find(frame);
@@ -167,10 +157,8 @@ template <Callable<const Frame&> Find>
                 detail::keep_more_probable(all.next_best, std::move(*here));
         detail::add_stats(all.stats, found.stats);
     }
-    const bool judged = std::none_of(all.objects.begin(), all.objects.end(),
-                                     [](const Detection& object) { return object.box_reasons.empty(); });
-    if (judged) detail::yield_across_turns(all.objects, options.rival_share);
-    const NonMaximumSuppression suppression{.max_inside = 0.5, .across_classes = !judged};
+    if (!calibration.empty()) yield_to_rivals(all.objects, calibration, options.rival_share);
+    const NonMaximumSuppression suppression{.max_inside = 0.5, .across_classes = calibration.empty()};
     std::vector<Detection> strongest;
     for (const Verified& verified : suppression.verify(all.objects)) {
         Detection& object = all.objects[verified.index];

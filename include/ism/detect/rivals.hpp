@@ -36,8 +36,8 @@ inline constexpr double default_rival_share = 0.5;
 }
 
 /// @brief One place shows one object: where a box of another class at about the same place is more probable,
-/// a detection loses a share of its lead. The most probable stay as they are.
-/// @param detections   with reasons of their boxes, of which rivals have taken nothing yet
+/// a detection loses a share of its lead, instead of what it lost before. The most probable stay as they are.
+/// @param detections   with reasons of their boxes
 /// @param calibration  that gave them their probabilities
 /// @param share        0 = none ... 1 = all
 inline void yield_to_rivals(std::vector<Detection>& detections, const Calibration& calibration,
@@ -46,9 +46,10 @@ inline void yield_to_rivals(std::vector<Detection>& detections, const Calibratio
     for (std::size_t i = 0; i < detections.size(); ++i) {
         Detection& detection = detections[i];
         const double slope = calibration.curves[detection.class_index].slope;
-        if (leads[i] == 0 || !(slope > 0)) continue;
-        detection.box_reasons.rivals = -share * leads[i];
-        detection.score *= std::exp(detection.box_reasons.rivals / slope);
+        const double lost = leads[i] > 0 ? -share * leads[i] : 0, before = detection.box_reasons.rivals;
+        if (lost == before || !(slope > 0)) continue;
+        detection.box_reasons.rivals = lost;
+        detection.score *= std::exp((lost - before) / slope);
         detection.probability = calibration.probability(detection.class_index, detection.score);
     }
 }
