@@ -166,7 +166,7 @@ TEST_CASE("of objects at one place that are found in several turns the strongest
 TEST_CASE("what templates judged yields to what is more probable at another angle") {
     const ism::Frame frame{.gray = ism::GrayImage(64, 48)};
     // In the middle class 0 is seen upright with odds of e, class 1 upside down with e^3.
-    const ism::Calibration calibration{{{.slope = 2, .offset = 0.5}, {.slope = 2, .offset = 0.5}}};
+    const ism::Calibration of_templates{{{.slope = 2, .offset = 0.5}, {.slope = 2, .offset = 0.5}}};
     const auto seen = [&](double min_probability) {
         int looks = 0;
         const auto find = [&](const ism::Frame&) {
@@ -175,11 +175,12 @@ TEST_CASE("what templates judged yields to what is more probable at another angl
             object.class_index = std::uint32_t(looks);
             object.box_reasons = {.look = looks == 0 ? 0.5 : 2.5, .any = 0.5, .rivals = -0.25};
             object.score = std::exp((object.box_reasons.sum() - 0.5) / 2);
-            object.probability = calibration.probability(object.class_index, object.score);
+            object.probability = of_templates.probability(object.class_index, object.score);
             ++looks;
             return ism::Detections{.objects = {object}};
         };
-        return ism::detect_turned(frame, {.turns = 2, .min_probability = min_probability}, find, calibration);
+        return ism::detect_turned(frame, {.turns = 2, .min_probability = min_probability}, find,
+                                  of_templates);
     };
     const ism::Detections all = seen(0);
     REQUIRE(all.objects.size() == 2);
