@@ -12,6 +12,7 @@
 #include "ism/train/learn_mask_judge.hpp"
 #include "ism/train/learn_metric.hpp"
 #include "ism/train/learn_templates.hpp"
+#include "ism/train/masks_from_boxes.hpp"
 #include "ism/train/metric_extractor.hpp"
 #include "ism/train/orientation.hpp"
 
@@ -41,6 +42,7 @@ ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& featur
 
 ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& features,
                            const ism::TrainOptions& options, const ism::TemplateOptions& templates) {
+    model = ism::masks_from_boxes(std::move(model), features, options.threads, options.progress);
     model = ism::learn_templates(std::move(model), features, templates, options.threads, options.progress);
     return ism::learn_exemplars(std::move(model), features, 300, options.threads);
 }

@@ -19,7 +19,7 @@ struct TemplateOptions;
 namespace program {
 
 // What the library computes under these names (extract_training_features(), learn(), learn_templates() and
-// with it learn_exemplars()), compiled once for all who ask for it.
+// with it masks_from_boxes() and learn_exemplars()), compiled once for all who ask for it.
 [[nodiscard]] ism::TrainingFeatures extract_training_features(
     std::span<const std::string> class_names, const ism::TrainingSet& set,
     const std::vector<ism::AnyExtractor>& extractors, const ism::TrainOptions& options);

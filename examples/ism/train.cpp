@@ -146,6 +146,9 @@ void run_train(const TrainCommand& command) {
     if (known) features = ism::append(std::move(known->features), std::move(features));
     ism::Model model = learn(features, options);
     if (templates) model = learn_templates(std::move(model), features, options);
+    std::size_t cut_out = 0;
+    for (std::size_t i = 0; i < features.objects.size(); ++i)
+        cut_out += model.shapes.objects[i].mask != features.objects[i].mask;
     const bool keep_features = command.growable || known;
     if (!keep_features) features = {};  // the memory is needed
     const std::string depth = command.depth ? add_depth(model, dataset, options, known.has_value()) : "";
@@ -160,6 +163,7 @@ void run_train(const TrainCommand& command) {
     std::printf("images       %zu\n", summary.images);
     if (skipped > 0) std::printf("skipped      %zu\n", skipped);
     std::printf("objects      %zu\n", model.shapes.objects.size());
+    if (cut_out > 0) std::printf("masks        of %zu objects from their boxes\n", cut_out);
     std::printf("features     %zu", summary.features_used);
     if (summary.features_used < summary.features_found)
         std::printf(" of %zu, the strongest of each object (--max-features %zu)", summary.features_found,

@@ -13,6 +13,7 @@
 #include "ism/core/random.hpp"
 #include "ism/detect/exemplar_segmenter.hpp"
 #include "ism/train/learn_exemplars.hpp"
+#include "ism/train/masks_from_boxes.hpp"
 
 namespace {
 
@@ -318,4 +319,65 @@ TEST_CASE("what exemplars cannot be learnt or used with is refused by name") {
     error("ExemplarSegmenter::filter_radius", {.filter_radius = 2});
     error("ExemplarSegmenter::filter_epsilon", {.filter_epsilon = 0});
     error("PatchSegmenter::margin", {.votes = {.margin = -1}});
+}
+
+namespace {
+
+/// IoU of the mask of a training object with the one that it was drawn with.
+double iou_with_drawn(const ism::TrainingObject& object, const ism::TrainingImage& image) {
+    const ism::Mask drawn = ism::describe_object(image.objects[0].label(), image.objects[0].mask, {}).mask;
+    double both = 0, any = 0;
+    for (std::size_t i = 0; i < drawn.pixels().size(); ++i) {
+        const bool is = object.mask.pixels()[i] > 127, was = drawn.pixels()[i] > 127;
+        both += is && was, any += is || was;
+    }
+    return both / any;
+}
+
+ism::Model unlearnt(const ism::TrainingFeatures& features) {
+    ism::Model model;
+    model.shapes.class_names = features.class_names, model.shapes.objects = features.objects;
+    return model;
+}
+
+}  // namespace
+
+TEST_CASE("objects that were labelled by boxes get masks from their colours and from each other") {
+    std::vector<ism::TrainingImage> images, boxes;
+    for (std::uint64_t seed = 21; seed <= 26; ++seed) images.push_back(animal_picture(seed, seed % 2 == 0));
+    for (ism::TrainingImage image : images) {
+        image.objects[0].mask = {};
+        boxes.push_back(image);
+    }
+    boxes[4].objects[0].mask = images[4].objects[0].mask;  // one has a mask
+    const ism::TrainingFeatures features = features_of(boxes);
+    const ism::Model model = ism::masks_from_boxes(unlearnt(features), features, 1);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        CAPTURE(i);
+        const ism::TrainingObject &own = model.shapes.objects[i], &labelled = features.objects[i];
+        CHECK((own.mask == labelled.mask) == (i == 4));
+        CHECK((own.reach == labelled.reach) == (i == 4));
+        CHECK(iou_with_drawn(labelled, images[i]) < (i == 4 ? 1.01 : 0.6));
+        CHECK(iou_with_drawn(own, images[i]) > 0.85);
+    }
+    CHECK(ism::learn_exemplars(model, features).exemplars.size() == images.size());
+    CHECK(ism::learn_exemplars(unlearnt(features), features).exemplars.size() == 1);
+
+    const ism::Model again = ism::masks_from_boxes(unlearnt(features), features, 3);
+    for (std::size_t i = 0; i < images.size(); ++i)
+        CHECK(again.shapes.objects[i].mask == model.shapes.objects[i].mask);
+}
+
+TEST_CASE("crops keep their boxes, and so do images whose pixels were not kept") {
+    ism::TrainingImage image = animal_picture(31);
+    image.objects = {{.class_index = 0, .box = {10, 5, 220, 150}}};
+    const ism::TrainingFeatures crop = features_of({image});
+    CHECK(ism::masks_from_boxes(unlearnt(crop), crop).shapes.objects[0].mask == crop.objects[0].mask);
+
+    image.objects = {{.class_index = 0, .box = {60, 40, 110, 80}}};
+    const ism::TrainingFeatures kept = features_of({image}), left = features_of({image}, false);
+    CHECK(ism::masks_from_boxes(unlearnt(left), left).shapes.objects[0].mask == left.objects[0].mask);
+    CHECK(ism::masks_from_boxes(unlearnt(kept), kept).shapes.objects[0].mask != kept.objects[0].mask);
+    CHECK_THROWS_WITH(ism::masks_from_boxes({}, kept),
+                      Catch::Contains("masks: objects of the model: expected 1, got 0"));
 }

@@ -16,7 +16,7 @@ namespace ism {
 
 /// @brief Adds to a model the training objects that lend their masks (ExemplarSegmenter), from the same
 /// training features, whose pixels were kept (TrainingFeatureOptions::pixels). An object without a mask of
-/// its own is none.
+/// its own, labelled or from masks_from_boxes(), is none.
 /// @param max_of_class  of more objects of a class every second, third … is taken
 /// @throws Error where the model is of other objects, or no image has pixels.
 [[nodiscard]] inline Model learn_exemplars(Model model, const TrainingFeatures& features,
@@ -37,7 +37,7 @@ namespace ism {
         for (std::uint32_t object = view.first_object; object < view.end_object; ++object) {
             const ObjectLabel& label = view.labels[object - view.first_object];
             const Mask whole_box = object_mask({.box = label.box}, view.width, view.height);
-            if (describe_object(label, whole_box, {}).mask != features.objects[object].mask)
+            if (describe_object(label, whole_box, {}).mask != model.shapes.objects[object].mask)
                 of_class[label.class_index].push_back({object, &view, label});
         }
     }
