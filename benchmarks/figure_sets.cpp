@@ -9,6 +9,7 @@
 // - figure_sets without-object SET.json K TRAIN.json TEST.json: object K of each class (instance, or car7-…)
 //   apart from the others
 // - figure_sets random-part SET.json SEED OUT.json: four of five images, by chance
+// - figure_sets without-masks SET.json OUT.json: with the boxes of the labels alone
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -191,7 +192,8 @@ struct Turn {
 int main(int argc, char** argv) try {
     const std::vector<std::string> words(argv + 1, argv + argc);
     const std::string what = words.empty() ? "" : words[0];
-    const std::size_t count = what == "without-object" ? 5 : what == "rescaled" || what == "turned" ? 3 : 4;
+    const bool three = what == "rescaled" || what == "turned" || what == "without-masks";
+    const std::size_t count = what == "without-object" ? 5 : three ? 3 : 4;
     ism::expect(words.size() == count, "arguments", "those of the head of figure_sets.cpp", words.size());
     ism::Dataset set = ism::read_dataset(words[1]);
     if (what == "without-object") {
@@ -199,6 +201,10 @@ int main(int argc, char** argv) try {
         ism::write_dataset(words[4], of_object(std::move(set), words[2], true));
     } else if (what == "random-part") {
         ism::write_dataset(words[3], random_part(std::move(set), words[2]));
+    } else if (what == "without-masks") {
+        for (ism::DatasetImage& image : set.images)
+            for (ism::DatasetAnnotation& object : image.objects) object.segmentation = {};
+        ism::write_dataset(words[2], set);
     } else if (what == "rescaled" || what == "turned") {
         const fs::path folder = words[2];
         ism::write_dataset(folder / "set.json", what == "turned" ? turned(std::move(set), folder)
