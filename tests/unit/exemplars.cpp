@@ -368,12 +368,19 @@ TEST_CASE("objects that were labelled by boxes get masks from their colours and 
         CHECK(again.shapes.objects[i].mask == model.shapes.objects[i].mask);
 }
 
-TEST_CASE("crops keep their boxes, and so do images whose pixels were not kept") {
-    ism::TrainingImage image = animal_picture(31);
-    image.objects = {{.class_index = 0, .box = {10, 5, 220, 150}}};
-    const ism::TrainingFeatures crop = features_of({image});
-    CHECK(ism::masks_from_boxes(unlearnt(crop), crop).shapes.objects[0].mask == crop.objects[0].mask);
+TEST_CASE("crops borrow masks, but where most are crops all keep their boxes") {
+    ism::TrainingImage image = animal_picture(31), crop = image;
+    image.objects = {{.class_index = 0, .box = {60, 40, 110, 80}}};
+    crop.objects = {{.class_index = 0, .box = {10, 5, 220, 150}}};
+    const ism::TrainingFeatures half = features_of({image, crop}), most = features_of({crop, image, crop});
+    const ism::Model borrowed = ism::masks_from_boxes(unlearnt(half), half),
+                     kept = ism::masks_from_boxes(unlearnt(most), most);
+    for (std::size_t i = 0; i < 2; ++i) CHECK(borrowed.shapes.objects[i].mask != half.objects[i].mask);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(kept.shapes.objects[i].mask == most.objects[i].mask);
+}
 
+TEST_CASE("boxes of images whose pixels were not kept stay") {
+    ism::TrainingImage image = animal_picture(31);
     image.objects = {{.class_index = 0, .box = {60, 40, 110, 80}}};
     const ism::TrainingFeatures kept = features_of({image}), left = features_of({image}, false);
     CHECK(ism::masks_from_boxes(unlearnt(left), left).shapes.objects[0].mask == left.objects[0].mask);

@@ -49,26 +49,30 @@ struct BoxedObject {
     return region.width * region.height >= 1.2 * box.area();
 }
 
-/// The objects of classes that lack masks.
+/// The objects of classes that lack masks and can find some.
 [[nodiscard]] inline std::vector<BoxedObject> boxed_objects(std::span<const TrainingObject> objects,
                                                             const TrainingFeatures& features) {
     constexpr std::size_t max_lenders = 100;  // of a class
     const std::size_t classes = features.class_names.size();
     std::vector<BoxedObject> boxed;
-    std::vector<std::size_t> count(classes, 0), lacking(classes, 0), seen(classes, 0);
+    std::vector<std::size_t> count(classes, 0), able(classes, 0), lacking(classes, 0), seen(classes, 0);
     for (const TrainingView& view : features.views)
         for (std::uint32_t i = view.first_object; i < view.end_object && !view.pixels.empty(); ++i) {
             const ObjectLabel& label = view.labels[i - view.first_object];
-            if (!shows_ground(label.box, view.width, view.height)) continue;
             const Mask whole_box = object_mask({.box = label.box}, view.width, view.height);
-            const bool labelled = describe_object(label, whole_box, {}).mask != objects[i].mask;
-            boxed.push_back({&view, i, label.class_index, label.box, labelled});
-            ++count[label.class_index], lacking[label.class_index] += !labelled;
+            const bool labelled = describe_object(label, whole_box, {}).mask != objects[i].mask,
+                       lends = labelled || shows_ground(label.box, view.width, view.height);
+            boxed.push_back({&view, i, label.class_index, label.box, labelled, lends});
+            ++count[label.class_index], able[label.class_index] += lends;
+            lacking[label.class_index] += !labelled;
         }
-    std::erase_if(boxed, [&](const BoxedObject& own) { return lacking[own.class_index] == 0; });
+    std::erase_if(boxed, [&](const BoxedObject& own) {
+        const std::uint32_t c = own.class_index;
+        return lacking[c] == 0 || 2 * able[c] < count[c];
+    });
     for (BoxedObject& own : boxed) {
-        const std::size_t step = (count[own.class_index] + max_lenders - 1) / max_lenders;
-        own.lends = seen[own.class_index]++ % step == 0;
+        const std::size_t step = (able[own.class_index] + max_lenders - 1) / max_lenders;
+        own.lends = own.lends && seen[own.class_index]++ % step == 0;
     }
     return boxed;
 }
@@ -112,7 +116,8 @@ inline void expect_ellipse(Mask& mask) {
 /// from masks or lends them (learn_templates(), learn_exemplars()). Colours within and around each box tell
 /// figure from ground, as in GrabCut (Rother, Kolmogorov and Blake 2004), and objects of a class that look
 /// alike lend each other what they have found (Kuettel, Guillaumin and Ferrari 2012). Labelled masks stay,
-/// and are lent. An object that fills its image keeps its box.
+/// and are lent. Crops, which show no ground, only borrow; a class of which more than half are crops keeps
+/// its boxes.
 /// @param features  that the model was learnt from, with pixels (TrainingFeatureOptions::pixels)
 /// @throws Error where the model is of other objects.
 [[nodiscard]] inline Model masks_from_boxes(Model model, const TrainingFeatures& features,
