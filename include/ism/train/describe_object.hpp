@@ -72,6 +72,13 @@ namespace ism {
     return result;
 }
 
+/// @brief Whether a training object has no mask but its whole box, as of a label without one.
+/// @param width, height  of the image
+[[nodiscard]] inline bool is_whole_box(const TrainingObject& object, const ObjectLabel& label, int width,
+                                       int height) {
+    return describe_object(label, object_mask({.box = label.box}, width, height), {}).mask == object.mask;
+}
+
 /// @brief Median depth of an object's figure, metres; no_depth without readings.
 /// @param mask  of the image's size
 [[nodiscard]] inline float object_depth(const Frame& frame, const Mask& mask) {

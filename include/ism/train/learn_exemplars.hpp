@@ -36,8 +36,7 @@ namespace ism {
         pixels = true;
         for (std::uint32_t object = view.first_object; object < view.end_object; ++object) {
             const ObjectLabel& label = view.labels[object - view.first_object];
-            const Mask whole_box = object_mask({.box = label.box}, view.width, view.height);
-            if (describe_object(label, whole_box, {}).mask != model.shapes.objects[object].mask)
+            if (!is_whole_box(model.shapes.objects[object], label, view.width, view.height))
                 of_class[label.class_index].push_back({object, &view, label});
         }
     }

@@ -19,7 +19,6 @@
 #include "ism/detect/detection.hpp"
 #include "ism/detect/exemplar_segmenter.hpp"
 #include "ism/detect/scene.hpp"
-#include "ism/detect/segment.hpp"
 #include "ism/model/describe_exemplar.hpp"
 #include "ism/model/figure_reach.hpp"
 #include "ism/model/mask_exemplar.hpp"
@@ -59,8 +58,7 @@ struct BoxedObject {
     for (const TrainingView& view : features.views)
         for (std::uint32_t i = view.first_object; i < view.end_object && !view.pixels.empty(); ++i) {
             const ObjectLabel& label = view.labels[i - view.first_object];
-            const Mask whole_box = object_mask({.box = label.box}, view.width, view.height);
-            const bool labelled = describe_object(label, whole_box, {}).mask != objects[i].mask,
+            const bool labelled = !is_whole_box(objects[i], label, view.width, view.height),
                        lends = labelled || shows_ground(label.box, view.width, view.height);
             boxed.push_back({&view, i, label.class_index, label.box, labelled, lends});
             ++count[label.class_index], able[label.class_index] += lends;
