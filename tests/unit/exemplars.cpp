@@ -73,10 +73,15 @@ ism::TrainingFeatures features_of(const std::vector<ism::TrainingImage>& images,
     return all;
 }
 
-ism::Model model_of(const ism::TrainingFeatures& features, std::size_t most = 300, unsigned threads = 1) {
+/// A model that knows the objects alone.
+ism::Model unlearnt(const ism::TrainingFeatures& features) {
     ism::Model model;
     model.shapes.class_names = features.class_names, model.shapes.objects = features.objects;
-    return ism::learn_exemplars(std::move(model), features, most, threads);
+    return model;
+}
+
+ism::Model model_of(const ism::TrainingFeatures& features, std::size_t most = 300, unsigned threads = 1) {
+    return ism::learn_exemplars(unlearnt(features), features, most, threads);
 }
 
 const ism::Model& animals() {
@@ -332,12 +337,6 @@ double iou_with_drawn(const ism::TrainingObject& object, const ism::TrainingImag
         both += is && was, any += is || was;
     }
     return both / any;
-}
-
-ism::Model unlearnt(const ism::TrainingFeatures& features) {
-    ism::Model model;
-    model.shapes.class_names = features.class_names, model.shapes.objects = features.objects;
-    return model;
 }
 
 }  // namespace
