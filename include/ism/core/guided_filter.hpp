@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "ism/core/error.hpp"
@@ -39,39 +41,72 @@ namespace ism {
     return result;
 }
 
-/// @brief What follows the edges of another image: at each pixel slope · guide + offset.
+/// @brief A colour image as three of numbers: red, green and blue.
+using ColorPlanes = std::array<GrayImage, 3>;
+
+/// @brief What follows the edges of a colour image: at each pixel the sum of slope · guide over its three
+/// numbers, and offset.
 struct GuidedFit {
-    GrayImage slope, offset;
+    ColorPlanes slope;
+    GrayImage offset;
 };
 
-/// @brief Fits an image by linear functions of a guide, one a window, and takes at each pixel the mean of
-/// those whose windows it lies in: the guided filter (He, Sun and Tang 2010). It may be fitted at a lower
+namespace detail {
+
+/// x of A · x = b, for a symmetric A with positive eigenvalues: xx, xy, xz, yy, yz, zz.
+[[nodiscard]] inline std::array<double, 3> solve_symmetric(const std::array<double, 6>& a,
+                                                           const std::array<double, 3>& b) {
+    const auto [xx, xy, xz, yy, yz, zz] = a;
+    const double i = yy * zz - yz * yz, j = xz * yz - xy * zz, k = xy * yz - xz * yy;
+    const double by = 1 / (xx * i + xy * j + xz * k);
+    const double m = xx * zz - xz * xz, n = xy * xz - xx * yz, o = xx * yy - xy * xy;
+    return {by * (i * b[0] + j * b[1] + k * b[2]), by * (j * b[0] + m * b[1] + n * b[2]),
+            by * (k * b[0] + n * b[1] + o * b[2])};
+}
+
+}  // namespace detail
+
+/// @brief Fits an image by linear functions of a colour image, one a window, and takes at each pixel the mean
+/// of those whose windows it lies in: the guided filter (He, Sun and Tang 2010). It may be fitted at a lower
 /// resolution than the guide it is applied to (He and Sun 2015).
 /// @param guide, image  of one size
 /// @param radius        of the windows, pixels
 /// @param epsilon       variance of the guide below which a window counts as flat
-/// @throws Error for images of two sizes, a radius below 0, or an epsilon that is not above 0.
-[[nodiscard]] inline GuidedFit guided_fit(ImageView<const float> guide, ImageView<const float> image,
-                                          int radius, double epsilon) {
-    expect(guide.width() == image.width() && guide.height() == image.height(),
-           "guided_fit: size of the image", size_text(guide), size_text(image));
+/// @throws Error for images of different sizes, a radius below 0, or an epsilon that is not above 0.
+[[nodiscard]] inline GuidedFit guided_fit(const ColorPlanes& guide, ImageView<const float> image, int radius,
+                                          double epsilon) {
+    for (const GrayImage& plane : guide)
+        expect(plane.width() == image.width() && plane.height() == image.height(),
+               "guided_fit: size of the image", size_text(plane), size_text(image));
     expect(epsilon > 0, "guided_fit: epsilon", "above 0", epsilon);
-    const int width = guide.width(), height = guide.height();
-    GrayImage sq_guide(width, height), product(width, height);
+    const int width = image.width(), height = image.height();
+    const auto mean_product = [&](ImageView<const float> a, ImageView<const float> b) {
+        GrayImage product(width, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) product(x, y) = a(x, y) * b(x, y);
+        return box_mean(product, radius);
+    };
+    const auto& [red, green, blue] = guide;
+    const ColorPlanes mean{box_mean(red, radius), box_mean(green, radius), box_mean(blue, radius)};
+    const GrayImage mean_image = box_mean(image, radius);
+    const std::array<GrayImage, 6> squares{mean_product(red, red),    mean_product(red, green),
+                                           mean_product(red, blue),   mean_product(green, green),
+                                           mean_product(green, blue), mean_product(blue, blue)};
+    ColorPlanes slope{mean_product(red, image), mean_product(green, image), mean_product(blue, image)};
+    GrayImage offset(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            sq_guide(x, y) = guide(x, y) * guide(x, y);
-            product(x, y) = guide(x, y) * image(x, y);
+            const double r = mean[0](x, y), g = mean[1](x, y), b = mean[2](x, y), p = mean_image(x, y);
+            const auto a = detail::solve_symmetric(
+                {squares[0](x, y) - r * r + epsilon, squares[1](x, y) - r * g, squares[2](x, y) - r * b,
+                 squares[3](x, y) - g * g + epsilon, squares[4](x, y) - g * b,
+                 squares[5](x, y) - b * b + epsilon},
+                {slope[0](x, y) - r * p, slope[1](x, y) - g * p, slope[2](x, y) - b * p});
+            for (std::size_t k = 0; k < 3; ++k) slope[k](x, y) = float(a[k]);
+            offset(x, y) = float(p - a[0] * r - a[1] * g - a[2] * b);
         }
-    const GrayImage mean_guide = box_mean(guide, radius), mean_image = box_mean(image, radius);
-    GrayImage slope = box_mean(product, radius), offset = box_mean(sq_guide, radius);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const float g = mean_guide(x, y), m = mean_image(x, y);
-            const float a = (slope(x, y) - g * m) / (offset(x, y) - g * g + float(epsilon));
-            slope(x, y) = a, offset(x, y) = m - a * g;
-        }
-    return {box_mean(slope, radius), box_mean(offset, radius)};
+    for (GrayImage& plane : slope) plane = box_mean(plane, radius);
+    return {std::move(slope), box_mean(offset, radius)};
 }
 
 }  // namespace ism

@@ -134,16 +134,19 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
         for (std::size_t i = 0; i < told.size(); ++i) figure.pixels()[i] = probability(odds[i] + told[i]);
     }
 
-    GrayImage guide(width, height);
-    for (std::size_t i = 0; i < guide.pixels().size(); ++i)
-        guide.pixels()[i] = (0.299f * rgb[3 * i] + 0.587f * rgb[3 * i + 1] + 0.114f * rgb[3 * i + 2]) / 255;
+    ColorPlanes guide;
+    for (std::size_t k = 0; k < guide.size(); ++k) {
+        guide[k] = GrayImage(width, height);
+        for (std::size_t i = 0; i < figure.pixels().size(); ++i) guide[k].pixels()[i] = rgb[3 * i + k] / 255;
+    }
     const int radius = std::max(1, int(std::lround(filter_radius * std::sqrt(box.area()) * zoom)));
-    GuidedFit fit = guided_fit(guide, figure, radius, filter_epsilon);
+    const GuidedFit fit = guided_fit(guide, figure, radius, filter_epsilon);
     const auto enlarged = [&](const GrayImage& image) {
         return resize_area({image.pixels().begin(), image.pixels().end()}, width, height, 1, region.width,
                            region.height);
     };
-    const std::vector<float> slope = enlarged(fit.slope), offset = enlarged(fit.offset);
+    const std::vector<float> red = enlarged(fit.slope[0]), green = enlarged(fit.slope[1]),
+                             blue = enlarged(fit.slope[2]), offset = enlarged(fit.offset);
 
     Segmentation result{.x = region.x,
                         .y = region.y,
@@ -153,8 +156,9 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     std::size_t i = 0;
     for (int y = 0; y < region.height; ++y)
         for (int x = 0; x < region.width; ++x, ++i) {
+            const Rgb c = color(region.x + x, region.y + y);
             const float p =
-                std::clamp(slope[i] * scene.frame.gray(region.x + x, region.y + y) + offset[i], 0.0f, 1.0f);
+                std::clamp((red[i] * c.r + green[i] * c.g + blue[i] * c.b) / 255 + offset[i], 0.0f, 1.0f);
             result.figure(x, y) = p, result.ground(x, y) = 1 - p;
             result.mask(x, y) = p > 0.5f;
         }
