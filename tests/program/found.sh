@@ -92,7 +92,7 @@ cmp lines.txt both.txt || fail "files take the lines away"
 deep=deep
 for _ in {1..12}; do deep+=/$(printf '%0.sx' {1..250}); done
 mkdir -p "$deep"
-for i in {10..27}; do cp photos/$((i % 2)).png "$deep/$i.png"; done
+for i in {10..33}; do cp photos/$((i % 2)).png "$deep/$i.png"; done
 mkfifo told
 "${detect[@]}" "$deep" --threads 2 --json - -o last.json >told 2>/dev/null &
 exec 3<told

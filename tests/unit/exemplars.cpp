@@ -49,9 +49,10 @@ ism::TrainingImage animal_picture(std::uint64_t seed, bool faces_left = true, in
     return image;
 }
 
-/// What a box looks like in its own size.
+/// What a box looks like by itself.
 std::vector<ism::ExemplarView> view_of(const ism::TrainingImage& image) {
-    return {{1, ism::describe_exemplar(image.frame.color, image.objects[0].box)}};
+    const ism::Box& box = image.objects[0].box;
+    return {{box, ism::describe_exemplar(image.frame.color, box)}};
 }
 
 /// What learn_exemplars() needs to know of images.
@@ -149,6 +150,49 @@ TEST_CASE("the prior of a box is the mask of what looks like it, on either side"
                 right += (prior(x, y) > 0.5f) == (image.objects[0].mask(px, py) != 0);
             }
         CHECK(double(right) > 0.96 * double(inside));
+    }
+}
+
+TEST_CASE("a box is compared in sizes and places around it, and follows the object where it was off") {
+    const ism::Box box{100, 50, 80, 40};
+    const auto boxes = ism::compared_boxes(box, {.size_step = 0.1, .place_step = 0.05});
+    REQUIRE(boxes.size() == 7);
+    CHECK(ism::iou(boxes[0], box) == 1);
+    CHECK(ism::iou(boxes[1], {104, 52, 72, 36}) == Approx(1));
+    CHECK(ism::iou(boxes[2], {96, 48, 88, 44}) == Approx(1));
+    CHECK(ism::iou(boxes[3], {96, 48, 80, 40}) == Approx(1));
+    CHECK(ism::iou(boxes[6], {104, 52, 80, 40}) == Approx(1));
+    CHECK(ism::compared_boxes(box, {.size_step = 0, .place_step = 0}).size() == 1);
+
+    const auto image = animal_picture(3);
+    const ism::Box& truth = image.objects[0].box;
+    const ism::Mask& mask = image.objects[0].mask;
+    const auto right_samples = [&](const ism::Box& seen, const ism::ExemplarOptions& options) {
+        const auto views =
+            ism::describe_exemplar(image.frame.color, seen, ism::compared_boxes(seen, options));
+        const std::vector<std::uint32_t> among{2};  // the same picture
+        const ism::GrayImage prior = ism::ExemplarPrior(animals(), among, views, options).prior();
+        std::size_t right = 0;
+        for (int y = 0; y < prior.height(); ++y)
+            for (int x = 0; x < prior.width(); ++x) {
+                const auto px = [&](int at, double first, double length) {
+                    const double cells =
+                        (at + 0.5) / ism::ExemplarPrior::samples - ism::ExemplarPrior::margin;
+                    return int(first + cells / ism::exemplar_cells * length);
+                };
+                right += (prior(x, y) > 0.5f) ==
+                         (mask(px(x, seen.x, seen.width), px(y, seen.y, seen.height)) != 0);
+            }
+        return right;
+    };
+    const auto grown = [&](double by, double right, double down) {
+        return ism::Box{truth.x + (right - by / 2) * truth.width, truth.y + (down - by / 2) * truth.height,
+                        (1 + by) * truth.width, (1 + by) * truth.height};
+    };
+    for (const ism::Box& off :
+         {grown(0, 0.03, 0.03), grown(0, -0.03, 0.03), grown(0.05, 0, 0), grown(-0.05, 0, 0)}) {
+        CAPTURE(off.x, off.y, off.width, off.height);
+        CHECK(right_samples(off, {}) > right_samples(off, {.size_step = 0, .place_step = 0}));
     }
 }
 
@@ -310,6 +354,7 @@ TEST_CASE("what exemplars cannot be learnt or used with is refused by name") {
     CHECK_NOTHROW(ism::check(Segmenter{}));
     error("ExemplarOptions::max_exemplars", {.exemplars = {.max_exemplars = 0}});
     error("ExemplarOptions::size_step", {.exemplars = {.size_step = 0.2}});
+    error("ExemplarOptions::place_step", {.exemplars = {.place_step = 0.06}});
     error("ExemplarOptions::sharpness", {.exemplars = {.sharpness = -1}});
     error("ExemplarOptions::shift_cost", {.exemplars = {.shift_cost = 3}});
     error("ExemplarOptions::agreement", {.exemplars = {.agreement = std::nan("")}});

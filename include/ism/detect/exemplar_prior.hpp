@@ -21,10 +21,11 @@ namespace ism {
 
 /// @brief How masks are lent by exemplars.
 struct ExemplarOptions {
-    std::size_t max_exemplars = 60;  ///< that are most alike, of both sides, have a say
-    double size_step = 0.1;    ///< the box is also compared in sizes smaller and larger by this; 0 = not
+    std::size_t max_exemplars = 100;  ///< that are most alike, of both sides, have a say
+    double size_step = 0.05;   ///< the box is also compared in sizes smaller and larger by this; 0 = not
+    double place_step = 0.03;  ///< … and moved aslant by this part of its sides; 0 = not
     double sharpness = 60;     ///< weight: exp(sharpness · cosine)
-    double shift_cost = 0.02;  ///< of the cosine, for a part that lies a cell beside its place
+    double shift_cost = 0.01;  ///< of the cosine, for a part that lies a cell beside its place
     double agreement = 15;     ///< weight: exp(−agreement · mean difference of mask and picture)
 };
 
@@ -34,12 +35,29 @@ inline void check(const ExemplarOptions& options) {
     expect(options.max_exemplars >= 1, "ExemplarOptions::max_exemplars", "1 or more", options.max_exemplars);
     expect(options.size_step >= 0 && options.size_step <= 0.1, "ExemplarOptions::size_step", "0 ... 0.1",
            options.size_step);
+    expect(options.place_step >= 0 && options.place_step <= 0.05, "ExemplarOptions::place_step", "0 ... 0.05",
+           options.place_step);
     expect(options.sharpness >= 0 && options.sharpness <= 1e4, "ExemplarOptions::sharpness", "0 ... 1e4",
            options.sharpness);
     expect(options.shift_cost >= 0 && options.shift_cost <= 2, "ExemplarOptions::shift_cost", "0 ... 2",
            options.shift_cost);
     expect(options.agreement >= 0 && options.agreement <= 1e4, "ExemplarOptions::agreement", "0 ... 1e4",
            options.agreement);
+}
+
+/// @brief The boxes in and around one that are compared with exemplars, itself first.
+[[nodiscard]] inline std::vector<Box> compared_boxes(const Box& box, const ExemplarOptions& options) {
+    std::vector<Box> boxes{box};
+    if (const double step = options.size_step; step > 0)
+        for (const double size : {1 - step, 1 + step})
+            boxes.push_back({box.x + (1 - size) / 2 * box.width, box.y + (1 - size) / 2 * box.height,
+                             size * box.width, size * box.height});
+    if (const double step = options.place_step; step > 0)
+        for (const double right : {-step, step})
+            for (const double down : {-step, step})
+                boxes.push_back(
+                    {box.x + right * box.width, box.y + down * box.height, box.width, box.height});
+    return boxes;
 }
 
 /// @brief p(figure) in a box by the masks of training objects that look like it part by part: each cell takes
@@ -50,7 +68,7 @@ public:
     static constexpr int margin = 2;   ///< cells around the box
     static constexpr int side = (exemplar_cells + 2 * margin) * samples;  ///< of the prior
 
-    /// @param views  of the box, see describe_exemplar()
+    /// @param views  of the boxes it is compared in, see compared_boxes(); the first is the box itself
     /// @param among  indices of the model's exemplars that are asked
     ExemplarPrior(const Model& model, std::span<const std::uint32_t> among,
                   std::span<const ExemplarView> views, const ExemplarOptions& options)
@@ -87,7 +105,8 @@ public:
             const MaskExemplar& exemplar = model.exemplars[e];
             compare(views[view].cells, box_sq[view],
                     is_mirrored ? mirrored_exemplar(exemplar.cells) : exemplar.cells, i);
-            copy_mask(model.shapes.objects[exemplar.object].mask, is_mirrored, views[view].size, i);
+            copy_mask(model.shapes.objects[exemplar.object].mask, is_mirrored, views.front().box,
+                      views[view].box, i);
         }
     }
 
@@ -159,21 +178,29 @@ private:
         }
     }
 
-    /// @param size  of the box that it was compared with, in parts of the box's
-    void copy_mask(const Mask& mask, bool mirrored, double size, std::size_t i) {
+    /// @param compared  box that the exemplar looks like
+    void copy_mask(const Mask& mask, bool mirrored, const Box& box, const Box& compared, std::size_t i) {
         std::uint8_t* to = masks_.data() + i * mask_size;
-        // the column or row of the mask at a sample; outside it is none
-        const auto line = [&](int at, int count) {
-            const double cells = (at + 0.5) / samples - (margin + 1) - exemplar_cells / 2.0;
-            return int(std::floor((cells / (size * exemplar_cells) + 0.5) * count));
-        };
-        for (int y = 0; y < mask_side; ++y)
-            for (int x = 0; x < mask_side; ++x) {
-                const int column = line(x, mask.width()), row = line(y, mask.height());
-                if (mask.contains(column, row))
-                    to[y * mask_side + x] = mask(mirrored ? mask.width() - 1 - column : column, row);
+        // the columns or rows of the mask at the samples; outside it is none
+        const auto lines = [](double offset, double zoom, int count) {
+            std::array<int, std::size_t(mask_side)> result{};
+            for (std::size_t at = 0; at < result.size(); ++at) {
+                const double cells = (double(at) + 0.5) / samples - (margin + 1);
+                result[at] = int(std::floor((offset + zoom * cells / exemplar_cells) * count));
             }
-        const std::uint8_t* first = to + samples * mask_side + samples;
+            return result;
+        };
+        const auto columns =
+            lines((box.x - compared.x) / compared.width, box.width / compared.width, mask.width());
+        const auto rows =
+            lines((box.y - compared.y) / compared.height, box.height / compared.height, mask.height());
+        for (const int row : rows)
+            for (const int column : columns) {
+                if (mask.contains(column, row))
+                    *to = mask(mirrored ? mask.width() - 1 - column : column, row);
+                ++to;
+            }
+        const std::uint8_t* first = masks_.data() + i * mask_size + samples * mask_side + samples;
         means_.push_back(cell_means([&](int x, int y) { return float(first[y * mask_side + x]); }));
     }
     /// The mask that belongs to a part, from the first sample of the prior on.

@@ -30,11 +30,11 @@ struct ExemplarSegmenter {
     double margin = 0.25;         ///< how far beyond the box to look, in parts of its sides
     int max_side_px = 160;        ///< colours are compared at this size, or the picture's where it is smaller
     int color_rounds = 3;         ///< histograms from the prior by exemplars alone …
-    int agreement_rounds = 2;     ///< … and from that by those that agree with the colours
+    int agreement_rounds = 3;     ///< … and from that by those that agree with the colours
     double min_prior = 0.02;      ///< of figure and of ground
     double max_log_ratio = 3;     ///< what a colour can say
-    double filter_radius = 0.02;  ///< in parts of the root of the box's area
-    double filter_epsilon = 1e-4;  ///< variance of brightness (0 … 1) that is no edge
+    double filter_radius = 0.03;  ///< in parts of the root of the box's area
+    double filter_epsilon = 1e-4;  ///< variance of colours (0 … 1) that is no edge
     double placing = 0.7;          ///< how far the sides of a box go to those of what was cut out …
     double outside = 0.005;        ///< … beyond each of which so much of the figure lies, see figure_box()
     PatchSegmenter votes = {};     ///< for classes without exemplars
@@ -74,10 +74,8 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     const FrameColors colors(scene.frame);
     const RgbImage& color = colors.image();
     const BoxRegion region(box, margin, color.width(), color.height());
-    std::vector<double> sizes{1};
-    if (exemplars.size_step > 0)
-        sizes.insert(sizes.end(), {1 - exemplars.size_step, 1 + exemplars.size_step});
-    const ExemplarPrior lenders(model, among, describe_exemplar(color, box, sizes), exemplars);
+    const ExemplarPrior lenders(model, among, describe_exemplar(color, box, compared_boxes(box, exemplars)),
+                                exemplars);
 
     // The region in the size that colours are compared at.
     const double zoom = std::min(1.0, double(max_side_px) / std::max(region.width, region.height));

@@ -18,17 +18,17 @@
 
 namespace ism {
 
-/// @brief A box in one of several sizes around its centre, and what it looks like.
+/// @brief A box, and what it looks like.
 struct ExemplarView {
-    double size = 1;                       ///< of the box's
+    Box box;
     std::vector<std::uint8_t> cells = {};  ///< as MaskExemplar::cells
 };
 
-/// @brief What a box looks like in several sizes, to be compared with exemplars: its surroundings are brought
-/// to a size at which a cell is about 8 pixels, and its cells are described.
-/// @param sizes  in parts of the box's, at most 1.1
+/// @brief What boxes look like that hardly differ from one, to be compared with exemplars: its surroundings
+/// are brought to a size at which a cell is about 8 pixels, and the cells of each are described.
+/// @param boxes  that reach beyond `box` by at most a twentieth of its sides
 [[nodiscard]] inline std::vector<ExemplarView> describe_exemplar(ImageView<const Rgb> color, const Box& box,
-                                                                 std::span<const double> sizes) {
+                                                                 std::span<const Box> boxes) {
     const BoxRegion region(box, 0.25, color.width(),
                            color.height());  // what the norms of the ring's cells need
     const double zoom = 8 * exemplar_cells / std::sqrt(box.area());
@@ -47,12 +47,10 @@ struct ExemplarView {
     CellScratch scratch;
     const double sx = double(width) / region.width, sy = double(height) / region.height;
     std::vector<ExemplarView> views;
-    for (const double size : sizes) {
-        const Box there{(box.x + (1 - size) / 2 * box.width - region.x) * sx,
-                        (box.y + (1 - size) / 2 * box.height - region.y) * sy, size * box.width * sx,
-                        size * box.height * sy};
+    for (const Box& own : boxes) {
+        const Box there{(own.x - region.x) * sx, (own.y - region.y) * sy, own.width * sx, own.height * sy};
         describe_cells(pyramid, there, grid, cells, scratch);
-        ExemplarView view{size, std::vector<std::uint8_t>(exemplar_bytes)};
+        ExemplarView view{own, std::vector<std::uint8_t>(exemplar_bytes)};
         constexpr std::size_t first = hog_directions;  // those without sign follow those with
         for (std::size_t k = 0; k < exemplar_numbers; ++k)
             for (std::size_t i = 0; i < grid.cells(); ++i)
@@ -65,8 +63,7 @@ struct ExemplarView {
 
 /// @brief What a box looks like, as MaskExemplar::cells.
 [[nodiscard]] inline std::vector<std::uint8_t> describe_exemplar(ImageView<const Rgb> color, const Box& box) {
-    constexpr double own_size[] = {1};
-    return std::move(describe_exemplar(color, box, own_size).front().cells);
+    return std::move(describe_exemplar(color, box, std::span(&box, 1)).front().cells);
 }
 
 /// @brief The cells of an exemplar as a mirror shows it.
