@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -282,6 +284,56 @@ TEST_CASE("what was cut out says where an object lies whose box was off") {
     }
 }
 
+TEST_CASE("the colours of a class are those of its figures, against those around them") {
+    std::vector<ism::RgbImage> pictures;
+    const ism::Rgb brown{130, 90, 50}, green{60, 140, 60}, white{250, 250, 250};
+    for (const ism::Rgb ground : {green, white}) {  // a third of each figure is white
+        ism::RgbImage picture(400, 300);
+        for (int y = 0; y < 300; ++y)
+            for (int x = 0; x < 400; ++x) {
+                const bool figure = x >= 100 && x < 250 && y >= 100 && y < 180;
+                picture(x, y) = !figure ? ground : x < 150 ? white : brown;
+            }
+        pictures.push_back(std::move(picture));
+    }
+    ism::Mask whole(30, 16), none(30, 16);
+    for (std::uint8_t& share : whole.pixels()) share = 255;
+    const ism::Box box{100, 100, 150, 80};
+    const std::vector<ism::ColoredObject> objects{{pictures[0], box, &whole}, {pictures[1], box, &whole}};
+    const ism::FigureColors colors = ism::learn_figure_colors(objects);
+    REQUIRE(colors.size() == ism::figure_color_bins);
+    const auto says = [&](ism::Rgb c) {
+        const float rgb[] = {float(c.r), float(c.g), float(c.b)};
+        return ism::figure_color_odds(colors, rgb).at(0);
+    };
+    CHECK(says(brown) == 3);
+    CHECK(says(green) == -3);
+    CHECK(says(white) == Approx(std::log((1 / 3.0) / 0.5)).margin(0.01));
+    CHECK(says({20, 20, 200}) == 0);  // never seen
+    CHECK(ism::figure_color_odds({}, std::vector<float>(6, 9)) == std::vector<float>(2, 0));
+    CHECK(ism::learn_figure_colors({}).empty());
+    const ism::ColoredObject without_figure{pictures[0], box, &none};
+    CHECK(ism::learn_figure_colors(std::span(&without_figure, 1)).empty());
+}
+
+TEST_CASE("what has the colours of its class is cut out, and what has those around it is not") {
+    ism::Model model = animals();
+    REQUIRE(model.figure_colors.size() == 2);
+    CHECK(model.figure_colors[0].size() == ism::figure_color_bins);
+    CHECK(model.figure_colors[1].empty());
+    const auto image = animal_picture(21);
+    const auto sum_of_figure = [&](float said) {
+        model.figure_colors[0].assign(ism::figure_color_bins, said);
+        const auto part = cut_out(model, image.frame, image.objects[0].box);
+        return std::accumulate(part.figure.pixels().begin(), part.figure.pixels().end(), 0.0);
+    };
+    const double unsaid = sum_of_figure(0);
+    CHECK(sum_of_figure(3) > 1.001 * unsaid);
+    CHECK(sum_of_figure(-3) < 0.999 * unsaid);
+    model.figure_colors.clear();
+    CHECK(iou_with_truth(cut_out(model, image.frame, image.objects[0].box), image) > 0.93);
+}
+
 TEST_CASE("masks lie within the picture, wherever the box is, and grey pictures have some too") {
     const auto image = animal_picture(31, true, 5, 70);
     ism::Frame gray = image.frame;
@@ -362,6 +414,7 @@ TEST_CASE("what exemplars cannot be learnt or used with is refused by name") {
     error("ExemplarSegmenter::outside", {.outside = -0.1});
     error("ExemplarSegmenter::margin", {.margin = -1});
     error("ExemplarSegmenter::max_side_px", {.max_side_px = 2});
+    error("ExemplarSegmenter::class_colors", {.class_colors = -1});
     error("ExemplarSegmenter::color_rounds", {.color_rounds = -1});
     error("ExemplarSegmenter::agreement_rounds", {.agreement_rounds = -1});
     error("ExemplarSegmenter::min_prior", {.min_prior = 0});

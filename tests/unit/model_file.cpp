@@ -156,6 +156,9 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
             one.cells.push_back(static_cast<std::uint8_t>(random.index(256)));
         model.exemplars.push_back(one);
     }
+    model.figure_colors.resize(2);
+    for (std::size_t k = 0; k < ism::figure_color_bins; ++k)
+        model.figure_colors[1].push_back(float(random.uniform(-3, 3)));
     model.training = {12, 3456, 789};
     model.channels[1].neighbours = 7;
     model.rgbd = {depth_model(model, random)};
@@ -195,6 +198,7 @@ void check_equal(const ism::Model& a, const ism::Model& b) {
     CHECK(a.figures == b.figures);
     CHECK(a.template_calibration.curves == b.template_calibration.curves);
     CHECK(a.exemplars == b.exemplars);
+    CHECK(a.figure_colors == b.figure_colors);
     CHECK(a.training == b.training);
     REQUIRE(a.shapes.objects.size() == b.shapes.objects.size());
     for (std::size_t i = 0; i < a.shapes.objects.size(); ++i) {
@@ -351,6 +355,9 @@ TEST_CASE("A model that could not be read again is not written") {
     refuses("template_grids", [](ism::Model& m) { m.templates[0].grid.rows = 0; });
     refuses("spread of a template's aspect", [](ism::Model& m) { m.templates[0].log_aspect_spread = 0; });
     refuses("object of an exemplar", [](ism::Model& m) { m.exemplars[1].object = 3; });
+    refuses("figure_colors: expected finite", [](ism::Model& m) { m.figure_colors[1][7] = std::nanf(""); });
+    refuses("[1, 4096]", [](ism::Model& m) { m.figure_colors[1].pop_back(); });
+    refuses("figure_color_classes", [](ism::Model& m) { m.figure_colors.push_back(m.figure_colors[1]); });
     refuses("finite", [](ism::Model& m) { m.templates[0].bias = std::nanf(""); });
     refuses("object_points", [](ism::Model& m) { m.shapes.objects[2].points_m[4].y = std::nanf(""); });
     refuses("depth and size of an object", [](ism::Model& m) { m.shapes.objects[0].size_m = -1; });
@@ -451,6 +458,8 @@ TEST_CASE("A model file that contradicts itself is refused") {
          }},
         {": object of an exemplar: expected below 3, got 4000000000",
          [](File& f) { set(f, "exemplar_objects", 1, 4000000000u); }},
+        {": figure_color_classes: expected each once, below 2, got 2",
+         [](File& f) { set(f, "figure_color_classes", 0, 2u); }},
         {": tensor 'exemplar_cells'",
          [](File& f) {
              f.tensors["exemplar_cells"] = ism::make_tensor<std::uint8_t>({}, {2, 0});
@@ -460,7 +469,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {": class names: expected 1 or more", [](File& f) { f.metadata["class_names"] = "[]"; }},
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 12, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
+        {": format version: expected 13, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
         {": object_places: expected -1e+06 ... 1e+06",
          [&](File& f) { set(f, "object_places", 4, ism::no_depth); }},
         {": depth and size of an object: expected 0 or more",

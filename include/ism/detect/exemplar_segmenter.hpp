@@ -17,18 +17,21 @@
 #include "ism/detect/figure_box.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/detect/segment.hpp"
+#include "ism/model/figure_color_odds.hpp"
+#include "ism/model/figure_colors.hpp"
 
 namespace ism {
 
 /// @brief Cuts an object out by its box: the masks of training objects that look like it part by part give a
-/// prior, histograms of figure and ground tell what the colours of this picture say, and a guided filter
-/// brings the result to the edges of the picture. What was cut out also says where the object lies: templates
-/// see it in coarse cells, wherever its legs are. Where the model has no exemplar of the class (its labels
-/// have no masks) votes cut it out.
+/// prior, to which the colours of the class are added; histograms of figure and ground tell what the colours
+/// of this picture say, and a guided filter brings the result to its edges. What was cut out also says where
+/// the object lies: templates see it in coarse cells, wherever its legs are. Where the model has no exemplar
+/// of the class (its labels have no masks) votes cut it out.
 struct ExemplarSegmenter {
     ExemplarOptions exemplars = {};
     double margin = 0.25;         ///< how far beyond the box to look, in parts of its sides
     int max_side_px = 160;        ///< colours are compared at this size, or the picture's where it is smaller
+    double class_colors = 0.3;    ///< weight of what the colours of the class say
     int color_rounds = 3;         ///< histograms from the prior by exemplars alone …
     int agreement_rounds = 3;     ///< … and from that by those that agree with the colours
     double min_prior = 0.02;      ///< of figure and of ground
@@ -52,6 +55,7 @@ inline void check(const ExemplarSegmenter& options) {
     };
     in_range("ExemplarSegmenter::margin", options.margin, 0, 10, "0 ... 10");
     in_range("ExemplarSegmenter::max_side_px", options.max_side_px, 16, 65536, "16 ... 65536");
+    in_range("ExemplarSegmenter::class_colors", options.class_colors, 0, 10, "0 ... 10");
     in_range("ExemplarSegmenter::color_rounds", options.color_rounds, 0, 100, "0 ... 100");
     in_range("ExemplarSegmenter::agreement_rounds", options.agreement_rounds, 0, 100, "0 ... 100");
     in_range("ExemplarSegmenter::min_prior", options.min_prior, 1e-6, 0.5, "1e-6 ... 0.5");
@@ -84,6 +88,10 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     const std::vector<float> rgb =
         resize_area(region_colors(color, region), region.width, region.height, 3, width, height);
     const ColorBins bins(rgb);
+    const std::vector<float> class_odds = figure_color_odds(
+        hypothesis.class_index < model.figure_colors.size() ? model.figure_colors[hypothesis.class_index]
+                                                            : FigureColors{},
+        rgb);
 
     // Pixels of it as samples of the prior, and back.
     constexpr double sample = 1.0 / ExemplarPrior::samples;
@@ -102,7 +110,7 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
                 const bool inside = u > -0.5f && v > -0.5f && u < ExemplarPrior::side - 0.5f &&
                                     v < ExemplarPrior::side - 0.5f;
                 const float p = std::clamp(inside ? sample_bilinear(prior, u, v) : 0.0f, least, 1 - least);
-                odds.push_back(std::log(p / (1 - p)));
+                odds.push_back(std::log(p / (1 - p)) + float(class_colors) * class_odds[odds.size()]);
             }
         }
         return odds;

@@ -12,6 +12,7 @@
 #include "ism/model/box_classifier.hpp"
 #include "ism/model/box_cues.hpp"
 #include "ism/model/calibration.hpp"
+#include "ism/model/figure_colors.hpp"
 #include "ism/model/mask_exemplar.hpp"
 #include "ism/model/mask_judge.hpp"
 #include "ism/model/patch_classifier.hpp"
@@ -42,15 +43,16 @@ struct TrainingSummary {
 struct Model {
     std::vector<Channel> channels = {};
     ShapeModel shapes = {};
-    BoxClassifier box_classifier = {};         ///< may be empty
-    Calibration calibration = {};              ///< of votes and box classifier; may be empty
-    std::vector<BoxTemplate> templates = {};   ///< one a class; may be empty
-    PatchClassifier patch_classifier = {};     ///< of boxes that templates placed; may be empty
-    CueWeights cue_weights = {};               ///< of what judges boxes with the templates
-    std::vector<ClassFigure> figures = {};     ///< of each class; may be empty
-    Calibration template_calibration = {};     ///< of templates with the other cues; may be empty
-    std::vector<MaskExemplar> exemplars = {};  ///< whose masks are lent; may be empty
-    MaskJudge mask_judge = {};                 ///< of regions of RGB-D images; may be empty
+    BoxClassifier box_classifier = {};             ///< may be empty
+    Calibration calibration = {};                  ///< of votes and box classifier; may be empty
+    std::vector<BoxTemplate> templates = {};       ///< one a class; may be empty
+    PatchClassifier patch_classifier = {};         ///< of boxes that templates placed; may be empty
+    CueWeights cue_weights = {};                   ///< of what judges boxes with the templates
+    std::vector<ClassFigure> figures = {};         ///< of each class; may be empty
+    Calibration template_calibration = {};         ///< of templates with the other cues; may be empty
+    std::vector<MaskExemplar> exemplars = {};      ///< whose masks are lent; may be empty
+    std::vector<FigureColors> figure_colors = {};  ///< of each class; may be empty
+    MaskJudge mask_judge = {};                     ///< of regions of RGB-D images; may be empty
     TrainingSummary training = {};
     std::vector<Model> rgbd = {};  ///< none or one: the model of learn_metric() for frames with depth
 

@@ -15,6 +15,7 @@
 #include "ism/model/box_classifier.hpp"
 #include "ism/model/box_cues.hpp"
 #include "ism/model/calibration.hpp"
+#include "ism/model/figure_colors.hpp"
 #include "ism/model/mask_exemplar.hpp"
 #include "ism/model_file/shape_tensors.hpp"
 #include "ism/model_file/tensor.hpp"
@@ -197,6 +198,37 @@ inline void exemplars_to_tensors(std::span<const MaskExemplar> exemplars, Tensor
         exemplars.push_back({objects[i], {own.begin(), own.end()}});
     }
     return exemplars;
+}
+
+/// Those that are known one after another, and of which classes they are.
+inline void figure_colors_to_tensors(std::span<const FigureColors> colors, TensorFile& file) {
+    std::vector<std::uint32_t> classes;
+    std::vector<float> numbers;
+    for (std::size_t c = 0; c < colors.size(); ++c)
+        if (!colors[c].empty()) {
+            classes.push_back(std::uint32_t(c));
+            numbers.insert(numbers.end(), colors[c].begin(), colors[c].end());
+        }
+    file.tensors["figure_color_classes"] = make_tensor<std::uint32_t>(classes, {classes.size()});
+    file.tensors["figure_colors"] = make_tensor<float>(numbers, {classes.size(), figure_color_bins});
+}
+
+[[nodiscard]] inline std::vector<FigureColors> figure_colors_from_tensors(const TensorFile& file,
+                                                                          std::size_t classes) {
+    const auto known = values<std::uint32_t>(file, "figure_color_classes", {any_length});
+    const auto numbers = values<float>(file, "figure_colors", {known.size(), figure_color_bins});
+    for (const float number : numbers)
+        expect<FileError>(std::isfinite(number), lazy_text(file.source, ": figure_colors"), "finite numbers",
+                          number);
+    std::vector<FigureColors> colors(known.empty() ? 0 : classes);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        expect<FileError>(known[i] < classes && colors[known[i]].empty(),
+                          lazy_text(file.source, ": figure_color_classes"),
+                          lazy_text("each once, below ", classes), known[i]);
+        const auto own = numbers.subspan(i * figure_color_bins, figure_color_bins);
+        colors[known[i]].assign(own.begin(), own.end());
+    }
+    return colors;
 }
 
 }  // namespace ism::detail

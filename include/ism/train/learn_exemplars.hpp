@@ -10,13 +10,14 @@
 #include "ism/core/thread_pool.hpp"
 #include "ism/model/describe_exemplar.hpp"
 #include "ism/train/describe_object.hpp"
+#include "ism/train/learn_figure_colors.hpp"
 #include "ism/train/training_features.hpp"
 
 namespace ism {
 
-/// @brief Adds to a model the training objects that lend their masks (ExemplarSegmenter), from the same
-/// training features, whose pixels were kept (TrainingFeatureOptions::pixels). An object without a mask of
-/// its own, labelled or from masks_from_boxes(), is none.
+/// @brief Adds to a model the training objects that lend their masks (ExemplarSegmenter) and the colours of
+/// their classes, from the same training features, whose pixels were kept (TrainingFeatureOptions::pixels).
+/// An object without a mask of its own, labelled or from masks_from_boxes(), is none.
 /// @param max_of_class  of more objects of a class every second, third … is taken
 /// @throws Error where the model is of other objects, or no image has pixels.
 [[nodiscard]] inline Model learn_exemplars(Model model, const TrainingFeatures& features,
@@ -42,15 +43,23 @@ namespace ism {
     }
     expect(pixels, "exemplars: training images with pixels", "1 or more", 0);
     std::vector<Candidate> chosen;
+    std::vector<std::vector<ColoredObject>> colored(of_class.size());
     for (const auto& candidates : of_class) {
         const std::size_t step = (candidates.size() + max_of_class - 1) / max_of_class;
-        for (std::size_t i = 0; i < candidates.size(); i += step) chosen.push_back(candidates[i]);
+        for (std::size_t i = 0; i < candidates.size(); i += step) {
+            const auto& [object, view, label] = chosen.emplace_back(candidates[i]);
+            colored[label.class_index].push_back(
+                {view->pixels, label.box, &model.shapes.objects[object].mask});
+        }
     }
     model.exemplars.resize(chosen.size());
     parallel_for(chosen.size(), threads, [&](std::size_t i) {
         const auto& [object, view, label] = chosen[i];
         model.exemplars[i] = {object, describe_exemplar(view->pixels, label.box)};
     });
+    model.figure_colors.resize(chosen.empty() ? 0 : colored.size());
+    parallel_for(model.figure_colors.size(), threads,
+                 [&](std::size_t c) { model.figure_colors[c] = learn_figure_colors(colored[c]); });
     return model;
 }
 
