@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ism/core/box_region.hpp"
@@ -18,7 +19,6 @@
 #include "ism/detect/scene.hpp"
 #include "ism/detect/segment.hpp"
 #include "ism/model/figure_color_odds.hpp"
-#include "ism/model/figure_colors.hpp"
 
 namespace ism {
 
@@ -88,10 +88,10 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     const std::vector<float> rgb =
         resize_area(region_colors(color, region), region.width, region.height, 3, width, height);
     const ColorBins bins(rgb);
-    const std::vector<float> class_odds = figure_color_odds(
-        hypothesis.class_index < model.figure_colors.size() ? model.figure_colors[hypothesis.class_index]
-                                                            : FigureColors{},
-        rgb);
+    std::span<const float> known_colors;
+    if (hypothesis.class_index < model.figure_colors.size())
+        known_colors = model.figure_colors[hypothesis.class_index];
+    const std::vector<float> class_odds = figure_color_odds(known_colors, rgb);
 
     // Pixels of it as samples of the prior, and back.
     constexpr double sample = 1.0 / ExemplarPrior::samples;

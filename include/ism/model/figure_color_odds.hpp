@@ -22,8 +22,9 @@ namespace ism {
 }
 
 /// @brief What the colours of pixels say for figure, in logarithms of odds; nothing where they are not known.
-/// @param rgb  three numbers a pixel, 0 … 255
-[[nodiscard]] inline std::vector<float> figure_color_odds(const FigureColors& known,
+/// @param known  FigureColors of a class, or empty
+/// @param rgb    three numbers a pixel, 0 … 255
+[[nodiscard]] inline std::vector<float> figure_color_odds(std::span<const float> known,
                                                           std::span<const float> rgb) {
     std::vector<float> odds(rgb.size() / 3, 0.0f);
     if (known.empty()) return odds;
