@@ -76,7 +76,9 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
          {std::pair{"patches do not judge", &ism::CueWeights::patches},
           std::pair{"words do not judge", &ism::CueWeights::words},
           std::pair{"votes do not judge", &ism::CueWeights::votes},
-          std::pair{"contrast of colours does not judge", &ism::CueWeights::colors}}) {
+          std::pair{"contrast of colours does not judge", &ism::CueWeights::contrast},
+          std::pair{"colours of classes do not judge", &ism::CueWeights::colors},
+          std::pair{"size does not judge", &ism::CueWeights::size}}) {
         ism::Model without = model;
         without.cue_weights.*weight = 0;
         add(name, finder(std::move(without), search));

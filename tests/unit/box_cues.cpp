@@ -8,7 +8,7 @@
 
 #include "support/catch.hpp"
 
-#include "ism/detect/color_overlap.hpp"
+#include "ism/detect/box_colors.hpp"
 #include "ism/detect/voted_boxes.hpp"
 #include "ism/train/mean_figures.hpp"
 
@@ -24,29 +24,52 @@ ism::RgbImage box_picture(const ism::Box& box, ism::Rgb figure, ism::Rgb ground)
     return picture;
 }
 
+double overlap(const ism::RgbImage& picture, const ism::Box& box, const ism::ClassFigure& figure) {
+    return ism::color_overlap(ism::box_colors(picture, box, figure, ism::LabTable()));
+}
+
 }  // namespace
 
 TEST_CASE("colours overlap where a box does not follow an object") {
     const ism::Box box{60, 40, 64, 64};
     const ism::ClassFigure whole(ism::figure_numbers, 1);
     const ism::RgbImage picture = box_picture(box, {200, 30, 30}, {20, 90, 160});
-    CHECK(ism::color_overlap(picture, box, whole) == 0);
-    CHECK(ism::color_overlap(box_picture(box, {9, 9, 9}, {9, 9, 9}), box, whole) == Approx(1));
+    CHECK(overlap(picture, box, whole) == 0);
+    CHECK(overlap(box_picture(box, {9, 9, 9}, {9, 9, 9}), box, whole) == Approx(1));
     // a quarter of the box beside the object, so 3/4 of its figure and 1/5 of its ground are red
     const ism::Box beside{box.x + 16, box.y, box.width, box.height};
-    CHECK(ism::color_overlap(picture, beside, whole) ==
-          Approx(std::sqrt(0.75 * 0.2) + std::sqrt(0.25 * 0.8)));
+    CHECK(overlap(picture, beside, whole) == Approx(std::sqrt(0.75 * 0.2) + std::sqrt(0.25 * 0.8)));
     SECTION("the figure need not fill the box") {
         ism::ClassFigure left(ism::figure_numbers, 0);
         for (std::size_t i = 0; i < left.size(); ++i) left[i] = i % ism::figure_samples < 16;
-        CHECK(ism::color_overlap(picture, {box.x + 32, box.y, box.width, box.height}, left) <
-              ism::color_overlap(picture, {box.x + 32, box.y, box.width, box.height}, whole));
+        CHECK(overlap(picture, {box.x + 32, box.y, box.width, box.height}, left) <
+              overlap(picture, {box.x + 32, box.y, box.width, box.height}, whole));
     }
     SECTION("where no ground is to be seen colours tell nothing") {
         const ism::RgbImage crop(64, 64);
-        CHECK(ism::color_overlap(crop, {0, 0, 64, 64}, whole) == 1);
-        CHECK(ism::color_overlap(crop, {500, 500, 64, 64}, whole) == 1);
+        CHECK(overlap(crop, {0, 0, 64, 64}, whole) == 1);
+        CHECK(overlap(crop, {500, 500, 64, 64}, whole) == 1);
     }
+}
+
+TEST_CASE("a box with the colours of a class and of what is around its objects speaks for it") {
+    const ism::Box box{60, 40, 64, 64};
+    const ism::ClassFigure whole(ism::figure_numbers, 1);
+    const ism::LabTable to_lab;
+    const ism::Rgb red{200, 30, 30}, blue{20, 90, 160}, white{250, 250, 250};
+    ism::FigureColors known(ism::figure_color_bins, 0);
+    known[ism::figure_color_bin(to_lab(red.r, red.g, red.b))] = 2;
+    known[ism::figure_color_bin(to_lab(blue.r, blue.g, blue.b))] = -1;
+    const auto odds = [&](ism::Rgb figure, ism::Rgb ground) {
+        return ism::color_odds(ism::box_colors(box_picture(box, figure, ground), box, whole, to_lab), known);
+    };
+    CHECK(odds(red, blue) == Approx(2 + 0.5));
+    CHECK(odds(red, white) == Approx(2));
+    CHECK(odds(white, white) == Approx(0).margin(1e-6));
+    CHECK(odds(blue, red) == Approx(-1 - 1));
+    const ism::BoxColors seen = ism::box_colors(box_picture(box, red, blue), box, whole, to_lab);
+    CHECK(ism::color_odds(seen, {}) == 0);
+    CHECK(ism::color_odds({}, known) == 0);
 }
 
 TEST_CASE("the figure of a class is the mean of its masks, to both sides") {
@@ -96,10 +119,17 @@ TEST_CASE("votes weigh for the boxes that they stand for") {
 }
 
 TEST_CASE("cues are worth margins of a template") {
-    const ism::CueWeights weights{.patches = 0.5, .words = 0.1, .votes = 0.2, .colors = 1};
-    const ism::BoxCues cues{
-        .margin = 0.5, .word_logit = -2, .patch_margin = -0.8, .vote_weight = 0.9, .color_overlap = 0.25};
-    CHECK(weights.margin(cues) == Approx(0.5 - 0.4 - 0.2 + 0 - 0.25));
+    const ism::CueWeights weights{
+        .patches = 0.5, .words = 0.1, .votes = 0.2, .contrast = 1, .colors = 0.5, .size = 0.3};
+    const ism::BoxCues cues{.margin = 0.5,
+                            .word_logit = -2,
+                            .patch_margin = -0.8,
+                            .vote_weight = 0.9,
+                            .color_overlap = 0.25,
+                            .color_odds = 0.7,
+                            .log_area = ism::log_area({7, 9, 30, 20}, 60, 40)};
+    CHECK(cues.log_area == Approx(std::log(0.25)));
+    CHECK(weights.margin(cues) == Approx(0.5 - 0.4 - 0.2 + 0 - 0.25 + 0.35 + 0.3 * std::log(0.25)));
     CHECK(ism::CueWeights().margin(cues) == 0.5);
     CHECK(ism::CueWeights{.patches = 2}.margin({.margin = 0.1, .patch_margin = 3}) == Approx(0.1));
     const ism::BoxReasons odds = weights.reasons(cues).in_odds(4, -1);
@@ -107,6 +137,8 @@ TEST_CASE("cues are worth margins of a template") {
     CHECK(odds.patches == Approx(-1.6));
     CHECK(odds.words == Approx(-0.8));
     CHECK(odds.votes == Approx(0).margin(1e-9));
-    CHECK(odds.colors == Approx(-1));
+    CHECK(odds.contrast == Approx(-1));
+    CHECK(odds.colors == Approx(1.4));
+    CHECK(odds.size == Approx(1.2 * std::log(0.25)));
     CHECK(odds.sum() == Approx(4 * weights.margin(cues) - 1));
 }

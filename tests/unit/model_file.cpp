@@ -143,7 +143,7 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
                .spreads = above_zero(gaussians * ism::patch_axes)};
     patch_weights = {numbers(ism::PatchMixture::vector_numbers), numbers(ism::PatchMixture::vector_numbers)};
     patch_bias = numbers(2);
-    model.cue_weights = {0.75, 1.0 / 3, 1.0 / 7, 2};
+    model.cue_weights = {0.75, 1.0 / 3, 1.0 / 7, 2, 0.5, 1.0 / 9};
     for (int c = 0; c < 2; ++c) {
         ism::ClassFigure figure;
         for (std::size_t k = 0; k < ism::figure_numbers; ++k) figure.push_back(float(random.uniform()));
@@ -469,7 +469,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {": class names: expected 1 or more", [](File& f) { f.metadata["class_names"] = "[]"; }},
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 13, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
+        {": format version: expected 14, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
         {": object_places: expected -1e+06 ... 1e+06",
          [&](File& f) { set(f, "object_places", 4, ism::no_depth); }},
         {": depth and size of an object: expected 0 or more",

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "ism/core/box_region.hpp"
@@ -88,10 +87,8 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     const std::vector<float> rgb =
         resize_area(region_colors(color, region), region.width, region.height, 3, width, height);
     const ColorBins bins(rgb);
-    std::span<const float> known_colors;
-    if (hypothesis.class_index < model.figure_colors.size())
-        known_colors = model.figure_colors[hypothesis.class_index];
-    const std::vector<float> class_odds = figure_color_odds(known_colors, rgb);
+    const std::vector<float> class_odds =
+        figure_color_odds(model.figure_colors_of(hypothesis.class_index), rgb);
 
     // Pixels of it as samples of the prior, and back.
     constexpr double sample = 1.0 / ExemplarPrior::samples;

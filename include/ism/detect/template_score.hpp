@@ -13,7 +13,7 @@
 #include "ism/core/frame_colors.hpp"
 #include "ism/core/shared.hpp"
 #include "ism/detect/asked_proposals.hpp"
-#include "ism/detect/color_overlap.hpp"
+#include "ism/detect/box_colors.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/hypotheses.hpp"
@@ -75,7 +75,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     const CueWeights& weights = model.cue_weights;
     const bool with_patches = weights.patches > 0 && !model.patch_classifier.empty(),
                with_words = weights.words > 0 && !model.box_classifier.empty(),
-               with_colors = weights.colors > 0 && !model.figures.empty();
+               with_colors = weights.contrast + weights.colors > 0 && !model.figures.empty();
     const WordMap words = with_words ? WordMap(scene.features, scene.matches, model.words()) : WordMap();
     const DetectOptions options = proposal_options();
     const auto votes = cast_votes<Jism>(scene, options.matching, vote_limits(scene, options));
@@ -97,16 +97,23 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     const PatchMixture& mixture = model.patch_classifier.mixture;
     const std::optional<FisherEncoder> encoder =
         with_patches ? std::optional<FisherEncoder>(mixture) : std::nullopt;
+    const LabTable to_lab;
     std::vector<CellScratch> scratches(scene.pool.size());
     scene.pool.for_each(found.size(), [&](std::size_t i, unsigned worker) {
         Detection& detection = found[i];
         const std::uint32_t c = detection.class_index;
-        BoxCues cues{.margin = margins[i], .vote_weight = voted.weight(c, detection.box)};
+        BoxCues cues{.margin = margins[i],
+                     .vote_weight = voted.weight(c, detection.box),
+                     .log_area = log_area(detection.box, color.width(), color.height())};
         if (encoder)
             cues.patch_margin =
                 model.patch_classifier.margin(c, encoder->encode(pyramid, detection.box, scratches[worker]));
         if (with_words) cues.word_logit = model.box_classifier.logit(c, words.histogram(detection.box));
-        if (with_colors) cues.color_overlap = color_overlap(color, detection.box, model.figures[c]);
+        if (with_colors) {
+            const BoxColors colors_in = box_colors(color, detection.box, model.figures[c], to_lab);
+            cues.color_overlap = color_overlap(colors_in);
+            cues.color_odds = color_odds(colors_in, model.figure_colors_of(c));
+        }
         const BoxReasons reasons = weights.reasons(cues);
         detection.score = std::exp(reasons.sum());
         detection.probability = model.template_calibration.probability(c, detection.score);

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "ism/config.hpp"
+#include "ism/core/geometry.hpp"
 
 namespace ism {
 
@@ -19,6 +19,11 @@ inline constexpr std::size_t figure_numbers = std::size_t(figure_samples) * figu
 /// row after row.
 using ClassFigure = std::vector<float>;
 
+/// @brief The logarithm of the part of a picture that a box covers.
+[[nodiscard]] inline double log_area(const Box& box, int width, int height) {
+    return std::log(box.area() / (double(width) * double(height)));
+}
+
 /// @brief What speaks for and against an object of a class in a box.
 struct BoxCues {
     double margin = 0;         ///< of the template
@@ -26,25 +31,34 @@ struct BoxCues {
     double patch_margin = 0;   ///< of what its patches look like, see PatchClassifier
     double vote_weight = 0;    ///< of the votes that stand for about this box
     double color_overlap = 1;  ///< of figure and ground, 0 … 1, see color_overlap()
+    double color_odds = 0;     ///< of figure and ground, by the colours of the class, see color_odds()
+    double log_area = 0;       ///< of the box in parts of the picture: false boxes are mostly small
 };
 
 /// @brief What each cue adds to the margin of all, or, together with `any`, which is the same for all boxes
 /// of a class, to the logarithm of the odds that a box shows it.
 struct BoxReasons {
     double look = 0;  ///< the template
-    double patches = 0, words = 0, votes = 0, colors = 0;
+    double patches = 0, words = 0, votes = 0;
+    double contrast = 0;  ///< colours shared with what is around
+    double colors = 0;    ///< those of the class
+    double size = 0;
     double any = 0;
     double rivals = 0;  ///< more probable objects of other classes at the same place
 
     [[nodiscard]] bool empty() const { return look == 0 && any == 0; }
-    [[nodiscard]] double sum() const { return look + patches + words + votes + colors + any + rivals; }
+    [[nodiscard]] double sum() const {
+        return look + patches + words + votes + contrast + colors + size + any + rivals;
+    }
     /// @brief Margins in logarithms of odds, by the curve of a class (Calibration).
     [[nodiscard]] BoxReasons in_odds(double slope, double offset) const {
         return {.look = slope * look,
                 .patches = slope * patches,
                 .words = slope * words,
                 .votes = slope * votes,
+                .contrast = slope * contrast,
                 .colors = slope * colors,
+                .size = slope * size,
                 .any = offset,
                 .rivals = slope * rivals};
     }
@@ -52,10 +66,12 @@ struct BoxReasons {
 
 /// @brief How many margins of a template each other cue is worth.
 struct CueWeights {
-    double patches = 0;  ///< a margin of the patches below 0: they speak against boxes, not for them
-    double words = 0;    ///< a logit of the words
-    double votes = 0;    ///< e times the vote weight
-    double colors = 0;   ///< colours of figure and ground that have nothing in common
+    double patches = 0;   ///< a margin of the patches below 0: they speak against boxes, not for them
+    double words = 0;     ///< a logit of the words
+    double votes = 0;     ///< e times the vote weight
+    double contrast = 0;  ///< colours of figure and ground that have nothing in common
+    double colors = 0;    ///< a logarithm of odds of the colours of the class
+    double size = 0;      ///< e times the area
     [[nodiscard]] bool operator==(const CueWeights&) const = default;
 
     /// @brief What each cue adds to the margin of all.
@@ -64,7 +80,9 @@ struct CueWeights {
                 .patches = patches * std::min(0.0, cues.patch_margin),
                 .words = words * cues.word_logit,
                 .votes = votes * std::log(0.1 + cues.vote_weight),
-                .colors = -colors * cues.color_overlap};
+                .contrast = -contrast * cues.color_overlap,
+                .colors = colors * cues.color_odds,
+                .size = size * cues.log_area};
     }
     /// @brief The margin of all cues together.
     [[nodiscard]] double margin(const BoxCues& cues) const { return reasons(cues).sum(); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,11 @@ struct Model {
         std::size_t words = 0;
         for (std::size_t c = 0; c < channel; ++c) words += channels[c].codebook.size();
         return words;
+    }
+    /// @brief FigureColors of a class; empty where they are not known.
+    [[nodiscard]] std::span<const float> figure_colors_of(std::size_t class_index) const {
+        if (class_index >= figure_colors.size()) return {};
+        return figure_colors[class_index];
     }
 };
 

@@ -140,16 +140,17 @@ inline void templates_to_tensors(std::span<const BoxTemplate> templates, TensorF
 }
 
 inline void cue_weights_to_tensor(const CueWeights& weights, TensorFile& file) {
-    const auto& [patches, words, votes, colors] = weights;
-    file.tensors["cue_weights"] = make_tensor<double>(std::array{patches, words, votes, colors}, {4});
+    const auto& [patches, words, votes, contrast, colors, size] = weights;
+    file.tensors["cue_weights"] =
+        make_tensor<double>(std::array{patches, words, votes, contrast, colors, size}, {6});
 }
 
 [[nodiscard]] inline CueWeights cue_weights_from_tensor(const TensorFile& file) {
-    const auto weights = values<double>(file, "cue_weights", {4});
+    const auto weights = values<double>(file, "cue_weights", {6});
     for (const double weight : weights)
         expect<FileError>(weight >= 0 && weight <= 1000, lazy_text(file.source, ": cue_weights"),
                           "0 ... 1000", weight);
-    return {weights[0], weights[1], weights[2], weights[3]};
+    return {weights[0], weights[1], weights[2], weights[3], weights[4], weights[5]};
 }
 
 inline void figures_to_tensor(std::span<const ClassFigure> figures, TensorFile& file) {

@@ -90,7 +90,9 @@ namespace detail {
     add("what patches look like, wherever they lie", reasons.patches);
     add("words in the box", reasons.words);
     add("votes that agree with the box", reasons.votes);
-    add("colours shared with what is around", reasons.colors);
+    add("colours shared with what is around", reasons.contrast);
+    add("colours of the class", reasons.colors);
+    add("size: false boxes are mostly small", reasons.size);
     add("any box of the class", reasons.any);
     add("other classes at the same place", reasons.rivals);
     add("together", reasons.sum());

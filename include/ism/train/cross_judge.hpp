@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "ism/core/thread_pool.hpp"
-#include "ism/detect/color_overlap.hpp"
+#include "ism/detect/box_colors.hpp"
 #include "ism/hog/fisher_vector.hpp"
 #include "ism/hog/hog_pyramid.hpp"
 #include "ism/hog/propose_boxes.hpp"
@@ -48,6 +48,14 @@ struct JudgedBox {
     return fold_of;
 }
 
+/// Whether a box is that of an object of another class.
+[[nodiscard]] inline bool shows_another(const Box& box, const std::vector<ObjectLabel>& labels,
+                                        std::uint32_t class_index) {
+    return std::any_of(labels.begin(), labels.end(), [&](const ObjectLabel& label) {
+        return label.class_index != class_index && iou(box, label.box) >= 0.5;
+    });
+}
+
 /// The words in boxes of an image, in those labelled and in the strongest hypotheses.
 [[nodiscard]] inline std::vector<TrainingBox> word_boxes(const TemplateImage& image, std::size_t hypotheses) {
     std::vector<TrainingBox> boxes;
@@ -58,13 +66,16 @@ struct JudgedBox {
     return boxes;
 }
 
-/// What was fitted without a fold, beside templates.
+/// What was learnt without a fold, beside templates.
 struct FoldJudges {
     BoxClassifier words = {};
     PatchClassifier patches = {};
+    std::vector<FigureColors> colors = {};  ///< of each class
 };
 
 /// What judges say of the boxes of an image that they have not seen, of those that overlap the best alone.
+/// What shows an object of another class is left out: that it is none of this one its rivals tell
+/// (yield_to_rivals()).
 [[nodiscard]] inline std::vector<JudgedBox> judged_boxes(const TemplateImage& image,
                                                          std::span<const TemplateScorer> scorers,
                                                          const FoldJudges& judges,
@@ -72,6 +83,7 @@ struct FoldJudges {
                                                          const HogPyramid& pyramid, ThreadPool& pool) {
     std::vector<JudgedBox> judged;
     const FisherEncoder encoder(judges.patches.mixture);
+    const LabTable to_lab;
     CellScratch scratch;
     for (std::uint32_t c = 0; c < scorers.size(); ++c) {
         std::vector<SearchedBox> kept;
@@ -81,13 +93,18 @@ struct FoldJudges {
                             [&](const SearchedBox& k) { return overlaps(k.box, box.box); }))
                 continue;
             kept.push_back(box);
+            const bool right = best_iou(box.box, image.labels, c) >= 0.5;
+            if (!right && shows_another(box.box, image.labels, c)) continue;
+            const BoxColors colors = box_colors(image.color, box.box, figures[c], to_lab);
             BoxCues cues{.margin = box.score,
                          .patch_margin = judges.patches.margin(c, encoder.encode(pyramid, box.box, scratch)),
                          .vote_weight = image.voted.weight(c, box.box),
-                         .color_overlap = color_overlap(image.color, box.box, figures[c])};
+                         .color_overlap = color_overlap(colors),
+                         .color_odds = color_odds(colors, judges.colors[c]),
+                         .log_area = log_area(box.box, image.color.width(), image.color.height())};
             if (!judges.words.empty())
                 cues.word_logit = judges.words.logit(c, image.words.histogram(box.box));
-            judged.push_back({c, cues, best_iou(box.box, image.labels, c) >= 0.5});
+            judged.push_back({c, cues, right});
         }
     }
     return judged;
@@ -112,16 +129,15 @@ struct FoldJudges {
     return calibration_of(of_class, scored(judged, weights));
 }
 
-/// With what weights the cues tell right from wrong best together, by the likelihood of calibrated scores:
-/// each in its turn in eight steps up to the most that it may be worth. Words and votes no more than .1,
-/// since the codebook has seen all folds, which flatters them. Colours are expected to be worth about 1.5 ±
-/// .35: training images show little but the classes, and tell little of what they are worth elsewhere.
+/// What each cue is worth beside templates. Patches and words by the likelihood of calibrated scores, each in
+/// its turn in eight steps up to the most that it may be worth: words no more than .1, since the codebook has
+/// seen all folds, which flatters them. All others the same for any classes, as chosen on halves of four sets
+/// of images among photographs of other things: training images show little but the classes, and tell
+/// little of what these cues are worth elsewhere.
 [[nodiscard]] inline CueWeights fit_cue_weights(std::span<const JudgedBox> judged, std::size_t classes) {
     constexpr std::pair<double CueWeights::*, double> most[] = {{&CueWeights::patches, 1.2},
-                                                                {&CueWeights::words, 0.1},
-                                                                {&CueWeights::votes, 0.1},
-                                                                {&CueWeights::colors, 3}};
-    CueWeights best;
+                                                                {&CueWeights::words, 0.1}};
+    CueWeights best{.votes = 0.3, .contrast = 1.5, .colors = 0.5, .size = 0.2};
     double least_loss = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 3; ++round)
         for (const auto& [weight, limit] : most)
@@ -129,8 +145,7 @@ struct FoldJudges {
                 CueWeights weights = best;
                 weights.*weight = limit * step / 8;
                 const Calibration calibration = calibrated(judged, weights, classes);
-                const double unexpected = (weights.colors - 1.5) / 0.35;
-                double loss = unexpected * unexpected / 2;
+                double loss = 0;
                 for (const JudgedBox& box : judged) {
                     const Calibration::Curve& curve = calibration.curves[box.class_index];
                     const double odds = curve.slope * weights.margin(box.cues) + curve.offset;

@@ -57,6 +57,7 @@ namespace ism {
         const auto& [object, view, label] = chosen[i];
         model.exemplars[i] = {object, describe_exemplar(view->pixels, label.box)};
     });
+    if (!model.figure_colors.empty()) return model;  // of learn_templates()
     model.figure_colors.resize(chosen.empty() ? 0 : colored.size());
     parallel_for(model.figure_colors.size(), threads,
                  [&](std::size_t c) { model.figure_colors[c] = learn_figure_colors(colored[c]); });

@@ -21,7 +21,7 @@ namespace ism {
 struct ColoredObject {
     ImageView<const Rgb> picture;
     Box box;
-    const Mask* mask = nullptr;  ///< of the box: share of figure of each cell, 0 … 255
+    const Mask* mask;  ///< of the box: share of figure of each cell, 0 … 255
 };
 
 namespace detail {

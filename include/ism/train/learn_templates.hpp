@@ -14,11 +14,13 @@
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/proposals.hpp"
 #include "ism/train/cross_judge.hpp"
+#include "ism/train/describe_object.hpp"
 #include "ism/train/fit_box_classifier.hpp"
 #include "ism/train/fit_box_templates.hpp"
 #include "ism/train/fit_calibration.hpp"
 #include "ism/train/fit_patch_classifier.hpp"
 #include "ism/train/fit_patch_mixture.hpp"
+#include "ism/train/learn_figure_colors.hpp"
 #include "ism/train/mean_figures.hpp"
 #include "ism/train/pyramid_workers.hpp"
 #include "ism/train/training_boxes.hpp"
@@ -27,6 +29,28 @@
 namespace ism {
 
 namespace detail {
+
+/// The masks of the objects of a training image; none of those that were labelled without one.
+[[nodiscard]] inline std::vector<const Mask*> own_masks(const TrainingView& view,
+                                                        std::span<const TrainingObject> objects) {
+    std::vector<const Mask*> masks;
+    for (std::size_t i = 0; i < view.labels.size(); ++i) {
+        const TrainingObject& object = objects[view.first_object + i];
+        const bool whole = is_whole_box(object, view.labels[i], view.width, view.height);
+        masks.push_back(whole ? nullptr : &object.mask);
+    }
+    return masks;
+}
+
+/// The objects of a class in an image, as far as their masks are known.
+[[nodiscard]] inline std::vector<ColoredObject> colored_objects(const TemplateImage& image,
+                                                                std::size_t class_index) {
+    std::vector<ColoredObject> objects;
+    for (std::size_t i = 0; i < image.labels.size(); ++i)
+        if (image.labels[i].class_index == class_index && image.masks[i])
+            objects.push_back({image.color, image.labels[i].box, image.masks[i]});
+    return objects;
+}
 
 /// The training images with the hypotheses that their objects' own votes had no part in.
 [[nodiscard]] inline std::vector<TemplateImage> template_images(const Model& model,
@@ -47,6 +71,7 @@ namespace detail {
         images[i] = {.color = view.pixels,
                      .labels = view.labels,
                      .proposals = {},
+                     .masks = own_masks(view, model.shapes.objects),
                      .words = WordMap(scene.features, scene.matches, model.words())};
         const DetectOptions search = proposal_options();
         const auto votes = votes_of_others(view, scene, search);
@@ -63,6 +88,7 @@ namespace detail {
 struct FittedJudges {
     std::vector<BoxTemplate> templates = {};
     PatchClassifier patches = {};
+    std::vector<FigureColors> colors = {};
     std::vector<JudgedBox> judged = {};  ///< by judges that were fitted without the image's fold
 };
 
@@ -100,7 +126,15 @@ struct FittedJudges {
             if (fitter.sees(fits[f], i)) rows.push_back(&objects[i]), rows.push_back(&taken[f][i]);
         return fit_patch_classifier(rows, mixture, classes, workers.pool());
     };
-    std::vector<FoldJudges> judges(fits.size());
+    std::vector<FoldJudges> judges(fits.size(), {.colors = std::vector<FigureColors>(classes)});
+    workers.pool().for_each(fits.size() * classes, [&](std::size_t i, unsigned) {
+        const TemplateFit& fit = fits[i / classes];
+        const std::size_t c = i % classes;
+        std::vector<ColoredObject> seen;
+        for (std::size_t k = 0; k < images.size(); ++k)
+            if (fitter.sees(fit, k)) append(seen, colored_objects(images[k], c));
+        judges[i / classes].colors[c] = learn_figure_colors(seen);
+    });
     std::vector<std::vector<JudgedBox>> judged(images.size());
 
     const int rounds = options.mining_rounds, fold_rounds = std::min(rounds, 1);
@@ -141,7 +175,8 @@ struct FittedJudges {
             judges[f].patches = patches_without(f);
         }
     }
-    FittedJudges fitted{.templates = fits[0].templates, .patches = patches_without(0)};
+    FittedJudges fitted{
+        .templates = fits[0].templates, .patches = patches_without(0), .colors = judges[0].colors};
     for (const std::vector<JudgedBox>& boxes : judged) append(fitted.judged, boxes);
     return fitted;
 }
@@ -164,6 +199,10 @@ struct FittedJudges {
     model.template_calibration = detail::calibrated(fitted.judged, model.cue_weights, classes);
     model.templates = std::move(fitted.templates);
     model.patch_classifier = std::move(fitted.patches);
+    model.figure_colors = std::move(fitted.colors);
+    if (std::all_of(model.figure_colors.begin(), model.figure_colors.end(),
+                    [](auto& c) { return c.empty(); }))
+        model.figure_colors.clear();
     return model;
 }
 

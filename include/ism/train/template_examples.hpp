@@ -57,8 +57,9 @@ struct TemplateImage {
     ImageView<const Rgb> color;
     std::vector<ObjectLabel> labels;
     std::vector<ProposedBox> proposals;
-    WordMap words = {};     ///< for judges that know words too …
-    VotedBoxes voted = {};  ///< … and votes, without those of its own objects
+    std::vector<const Mask*> masks = {};  ///< of each label; none where it is not known
+    WordMap words = {};                   ///< for judges that know words too …
+    VotedBoxes voted = {};                ///< … and votes, without those of its own objects
 };
 
 namespace detail {
