@@ -37,7 +37,6 @@ TEST_CASE("regions overlap as the whole masks do") {
                 common += contains(a, x, y) && contains(b, x, y);
             }
         CHECK(intersection_area(a, b) == common);
-        if (area_of(a) > 0) CHECK(inside_share(a, b) == double(common) / double(area_of(a)));
         met += common > 0;
     }
     CHECK(met > 10);
@@ -47,7 +46,6 @@ TEST_CASE("a region may be empty, of a part of an image, or reach outside it") {
     const ism::RegionMask none, square{4, 5, ism::Mask(2, 2, 1)};
     CHECK(ism::region_of(ism::Mask(5, 5)) == none);
     CHECK(iou(none, none) == 0);
-    CHECK(inside_share(none, square) == 0);
     CHECK(intersection_area(none, square) == 0);
     CHECK(ism::region_of(ism::Mask(2, 2, 255), 4, 5) == square);
     CHECK(ism::mask_area(ism::full_mask(square, 5, 6)) == 1);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -17,6 +18,7 @@
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
 #include "ism/model_file/model_file.hpp"
+#include "ism/train/learn_exemplars.hpp"
 #include "ism/train/learn_templates.hpp"
 #include "ism/train/train.hpp"
 
@@ -196,6 +198,20 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
     CHECK(learnt(with(3, 0)).patches == Approx(1.2));
     CHECK(learnt(with(0, 0.5)).words == Approx(0.1));
     CHECK(learnt(with(-1, -0.5)) == known);
+}
+
+TEST_CASE("colours are learnt of classes whose objects have masks, and kept when exemplars are") {
+    CHECK(model_with_templates().figure_colors.empty());  // the masks of squares are their boxes
+    ism::Model model = model_without_templates();
+    for (ism::TrainingObject& object : model.shapes.objects)
+        for (int row = 0; object.class_index == 0 && row < object.mask.height() / 2; ++row)
+            for (int column = 0; column < object.mask.width(); ++column) object.mask(column, row) = 0;
+    model = ism::learn_templates(std::move(model), pattern_features(), small, 1);
+    REQUIRE(model.figure_colors.size() == 2);
+    CHECK(model.figure_colors_of(0).size() == ism::figure_color_bins);
+    CHECK(model.figure_colors_of(1).empty());
+    CHECK(model.figure_colors_of(2).empty());
+    CHECK(ism::learn_exemplars(model, pattern_features()).figure_colors == model.figure_colors);
 }
 
 TEST_CASE("the same templates for any number of threads") {

@@ -58,12 +58,6 @@ struct RegionMask {
     return together > 0 ? double(common) / double(together) : 0;
 }
 
-/// @brief The part of `a` that is inside `b`, 0 … 1; 0 where `a` is empty.
-[[nodiscard]] inline double inside_share(const RegionMask& a, const RegionMask& b) {
-    const std::size_t area = area_of(a);
-    return area > 0 ? double(intersection_area(a, b)) / double(area) : 0;
-}
-
 /// @brief The figure of a mask of the whole image, or of a part of it that begins at (x, y). Empty where
 /// there is none.
 [[nodiscard]] inline RegionMask region_of(ImageView<const std::uint8_t> mask, int x = 0, int y = 0) {
