@@ -18,6 +18,7 @@
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
 #include "ism/model_file/model_file.hpp"
+#include "ism/train/describe_object.hpp"
 #include "ism/train/learn_exemplars.hpp"
 #include "ism/train/learn_templates.hpp"
 #include "ism/train/train.hpp"
@@ -201,11 +202,13 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
 }
 
 TEST_CASE("colours are learnt of classes whose objects have masks, and kept when exemplars are") {
-    CHECK(model_with_templates().figure_colors.empty());  // the masks of squares are their boxes
     ism::Model model = model_without_templates();
-    for (ism::TrainingObject& object : model.shapes.objects)
-        for (int row = 0; object.class_index == 0 && row < object.mask.height() / 2; ++row)
-            for (int column = 0; column < object.mask.width(); ++column) object.mask(column, row) = 0;
+    for (const ism::TrainingView& view : pattern_features().views)
+        for (const ism::ObjectLabel& label : view.labels)
+            if (label.class_index == 1) {  // as if it had been labelled by its box
+                const ism::Mask box = ism::object_mask({.box = label.box}, view.width, view.height);
+                model.shapes.objects[view.first_object].mask = ism::describe_object(label, box, {}).mask;
+            }
     model = ism::learn_templates(std::move(model), pattern_features(), small, 1);
     REQUIRE(model.figure_colors.size() == 2);
     CHECK(model.figure_colors_of(0).size() == ism::figure_color_bins);
