@@ -43,24 +43,24 @@ namespace ism {
     }
     expect(pixels, "exemplars: training images with pixels", "1 or more", 0);
     std::vector<Candidate> chosen;
-    std::vector<std::vector<ColoredObject>> colored(of_class.size());
     for (const auto& candidates : of_class) {
         const std::size_t step = (candidates.size() + max_of_class - 1) / max_of_class;
-        for (std::size_t i = 0; i < candidates.size(); i += step) {
-            const auto& [object, view, label] = chosen.emplace_back(candidates[i]);
-            colored[label.class_index].push_back(
-                {view->pixels, label.box, &model.shapes.objects[object].mask});
-        }
+        for (std::size_t i = 0; i < candidates.size(); i += step) chosen.push_back(candidates[i]);
     }
     model.exemplars.resize(chosen.size());
     parallel_for(chosen.size(), threads, [&](std::size_t i) {
         const auto& [object, view, label] = chosen[i];
         model.exemplars[i] = {object, describe_exemplar(view->pixels, label.box)};
     });
-    if (!model.figure_colors.empty()) return model;  // of learn_templates()
-    model.figure_colors.resize(chosen.empty() ? 0 : colored.size());
-    parallel_for(model.figure_colors.size(), threads,
-                 [&](std::size_t c) { model.figure_colors[c] = learn_figure_colors(colored[c]); });
+    if (model.figure_colors.empty() && !chosen.empty()) {  // else learn_templates() has learnt them
+        std::vector<std::vector<ColoredObject>> colored(of_class.size());
+        for (const auto& [object, view, label] : chosen)
+            colored[label.class_index].push_back(
+                {view->pixels, label.box, &model.shapes.objects[object].mask});
+        model.figure_colors.resize(colored.size());
+        parallel_for(colored.size(), threads,
+                     [&](std::size_t c) { model.figure_colors[c] = learn_figure_colors(colored[c]); });
+    }
     return model;
 }
 
