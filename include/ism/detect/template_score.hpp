@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/color_bins.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/frame_colors.hpp"
 #include "ism/core/shared.hpp"

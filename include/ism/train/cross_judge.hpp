@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/color_bins.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/box_colors.hpp"
 #include "ism/hog/fisher_vector.hpp"
@@ -20,6 +21,7 @@
 #include "ism/hog/search_box.hpp"
 #include "ism/model/box_classifier.hpp"
 #include "ism/model/box_cues.hpp"
+#include "ism/model/figure_colors.hpp"
 #include "ism/model/patch_classifier.hpp"
 #include "ism/train/fit_box_classifier.hpp"
 #include "ism/train/fit_calibration.hpp"

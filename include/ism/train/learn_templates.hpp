@@ -13,6 +13,7 @@
 #include "ism/core/progress.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/proposals.hpp"
+#include "ism/model/figure_colors.hpp"
 #include "ism/train/cross_judge.hpp"
 #include "ism/train/describe_object.hpp"
 #include "ism/train/fit_box_classifier.hpp"
