@@ -55,7 +55,8 @@ public:
 private:
     void show(std::string_view stage, std::size_t done, std::size_t total) {
         if (!terminal_) return;
-        if (stage != stage_) stage_ = stage, stage_watch_ = {}, last_ = -1;
+        if (stage != stage_ || done < shown_done_) stage_ = stage, stage_watch_ = {}, last_ = -1;
+        shown_done_ = done;
         const double seconds = stage_watch_.seconds();
         if (seconds - last_ < 0.1 && done != total) return;
         last_ = seconds;
@@ -71,7 +72,8 @@ private:
     std::string stage_;
     Stopwatch stage_watch_;
     double last_ = -1;
-    std::size_t done_ = 0;
+    std::size_t done_ = 0;        // by step()
+    std::size_t shown_done_ = 0;  // when last told; less than that is a stage that begins anew
 };
 
 }  // namespace program

@@ -106,7 +106,7 @@ TEST_CASE("votes weigh for the boxes that they stand for") {
     for (const std::uint32_t feature : {0u, 1u})
         votes.push_back({.at = {}, .scale = 1, .weight = 2, .feature = feature, .occurrence = 0});
     votes.push_back({.at = {}, .scale = 1, .weight = 5, .feature = 0, .occurrence = 1});
-    const ism::VotedBoxes voted(votes, features, shapes);
+    ism::VotedBoxes voted(votes, features, shapes);
     const ism::Box box = ism::box_around({100, 50}, 40, 20);
     const double beside = 36.0 / 44.0;  // IoU of a box four pixels to the side
     CHECK(voted.weight(0, box) == Approx(2 + 2 * beside));
@@ -116,6 +116,9 @@ TEST_CASE("votes weigh for the boxes that they stand for") {
     std::vector<std::uint32_t> agreeing;
     voted.each_agreeing(0, box, 0.9, [&](std::uint32_t vote, float, double) { agreeing.push_back(vote); });
     CHECK(agreeing == std::vector<std::uint32_t>{0});
+    voted.forget(0);
+    CHECK(voted.weight(0, box) == 0);
+    CHECK(voted.weight(1, box) == Approx(5));
 }
 
 TEST_CASE("cues are worth margins of a template") {

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -13,6 +15,8 @@
 #include "ism/hog/hog_pyramid.hpp"
 #include "ism/train/cross_judge.hpp"
 #include "ism/train/fit_box_templates.hpp"
+#include "ism/train/learn_templates.hpp"
+#include "ism/train/training_features.hpp"
 
 namespace {
 
@@ -33,7 +37,8 @@ ism::RgbImage lined(std::uint32_t class_index, ism::Random& random) {
     return image;
 }
 
-/// Images of two classes in turn, those of one fold with pixels of another seed.
+/// Images of two classes in turn, those of one fold with pixels of another seed, where both classes are asked
+/// about all proposals.
 struct Lined {
     std::vector<ism::RgbImage> pixels = {};
     std::vector<ism::TemplateImage> images = {};
@@ -45,10 +50,12 @@ struct Lined {
             ism::Random random(i + (fold_of[i] == other_fold ? 100 : 0));
             pixels.push_back(lined(i % 2, random));
         }
-        for (std::uint32_t i = 0; i < count; ++i)
+        for (std::uint32_t i = 0; i < count; ++i) {
             images.push_back({.color = pixels[i],
                               .labels = {{i % 2, shown_box}},
                               .proposals = {{0, {2, 2, 40, 30}}, {1, {50, 30, 40, 40}}, {i % 2, shown_box}}});
+            images[i].asked = {2, images[i].proposals};
+        }
     }
 
     /// Described, mined once and fitted twice.
@@ -92,6 +99,46 @@ TEST_CASE("templates that are fitted without a fold know nothing of its pixels")
         }
         CHECK(searched == (before.fold < fold_count ? 8 : 12));
     }
+}
+
+TEST_CASE("a class learns nothing from an image that it is not asked about") {
+    Lined set(12, fold_count), changed(12, fold_count);
+    constexpr std::size_t image = 4;  // of class 0
+    ism::Random random(200);
+    changed.pixels[image] = lined(0, random);
+    changed.images[image].color = changed.pixels[image];
+    const auto both = set.fitted(), both_changed = changed.fitted();
+    for (Lined* one : {&set, &changed}) one->images[image].asked[1].clear();
+    const auto own = set.fitted(), own_changed = changed.fitted();
+    const auto same = [](const auto& a, const auto& b, std::size_t c) {
+        return a.fits()[0].templates[c] == b.fits()[0].templates[c];
+    };
+    CHECK(!same(both, both_changed, 1));
+    CHECK(same(own, own_changed, 1));
+    CHECK(!same(own, own_changed, 0));
+    CHECK(ism::detail::learns_from(set.images[image], 0));
+    CHECK(!ism::detail::learns_from(set.images[image], 1));
+}
+
+TEST_CASE("of many images that do not show it a class learns from an even choice") {
+    constexpr std::size_t classes = 40, shown = 25;
+    std::vector<ism::TrainingView> views(600);
+    for (std::size_t i = 0; i < views.size(); ++i) views[i].labels = {{i < shown ? 7u : 8u, shown_box}};
+    std::vector<const ism::TrainingView*> all;
+    for (const ism::TrainingView& view : views) all.push_back(&view);
+    const std::vector<bool> left_out = ism::detail::left_out_images(all, 7, classes);
+    REQUIRE(left_out.size() == all.size());
+    const auto learnt = [&](std::size_t begin, std::size_t end) {
+        return std::count(left_out.begin() + std::ptrdiff_t(begin), left_out.begin() + std::ptrdiff_t(end),
+                          false);
+    };
+    CHECK(learnt(0, shown) == shown);
+    CHECK(learnt(shown, 600) == 200);
+    CHECK(std::abs(learnt(shown, 312) - 100) <= 1);
+    CHECK(ism::detail::left_out_images(all, 7, 2) ==
+          std::vector<bool>(600, false));  // few classes search all
+    CHECK(ism::detail::left_out_images(std::span(all).first(200), 7, classes) ==
+          std::vector<bool>(200, false));
 }
 
 TEST_CASE("no templates are fitted without a fold that shows all there is of a class") {

@@ -37,7 +37,8 @@ namespace ism {
 struct TemplateScore {
     std::size_t max_proposals = 150;         ///< hypotheses that are asked, the strongest
     std::size_t max_boxes = searched_boxes;  ///< of a class that are placed by searching
-    std::size_t max_classes = 8;  ///< that are asked about a hypothesis, those of most vote weight there
+    std::size_t max_classes =
+        asked_classes;  ///< that are asked about a hypothesis, those of most vote weight there
     double min_agreement =
         VotedBoxes::default_agreement;  ///< IoU of the box that a vote stands for with that of the detection
     double rival_share = default_rival_share;  ///< of the lead of a more probable class at the same place,

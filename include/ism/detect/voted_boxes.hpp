@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,6 +28,9 @@ public:
     VotedBoxes(std::span<const Vote<Jism::dimension>> votes, std::span<const Feature> features,
                const ShapeModel& shapes)
         : of_class_(shapes.class_names.size()) {
+        std::vector<std::size_t> counts(of_class_.size(), 0);
+        for (const auto& vote : votes) ++counts[shapes.occurrence(vote.occurrence).class_index];
+        for (std::size_t c = 0; c < counts.size(); ++c) of_class_[c].reserve(counts[c]);
         for (std::uint32_t i = 0; i < votes.size(); ++i) {
             const Occurrence& o = shapes.occurrence(votes[i].occurrence);
             const TrainingObject& object = shapes.objects[o.object];
@@ -58,6 +62,9 @@ public:
                           [&](std::uint32_t, float weight, double agreement) { sum += weight * agreement; });
         return sum;
     }
+
+    /// @brief Forgets the votes of a class, for the memory that they take.
+    void forget(std::uint32_t class_index) { of_class_[class_index] = {}; }
 
 private:
     struct Voted {

@@ -35,6 +35,9 @@ struct ProposedBox {
 /// detection.
 inline constexpr std::size_t searched_boxes = 12;
 
+/// @brief Classes that are asked about a hypothesis, unless asked otherwise: in training as in detection.
+inline constexpr std::size_t asked_classes = 8;
+
 /// @brief The best boxes, best first, of which no two overlap by an IoU above 0.7.
 [[nodiscard]] inline std::vector<SearchedBox> best_apart(std::vector<SearchedBox> boxes,
                                                          std::size_t max_count) {

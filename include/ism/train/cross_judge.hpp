@@ -90,7 +90,7 @@ struct FoldJudges {
     for (std::uint32_t c = 0; c < scorers.size(); ++c) {
         std::vector<SearchedBox> kept;
         for (const SearchedBox& box :
-             propose_boxes(scorers[c], c, pyramid, image.proposals, searched_boxes, pool)) {
+             propose_boxes(scorers[c], c, pyramid, image.asked[c], searched_boxes, pool)) {
             if (std::any_of(kept.begin(), kept.end(),
                             [&](const SearchedBox& k) { return overlaps(k.box, box.box); }))
                 continue;

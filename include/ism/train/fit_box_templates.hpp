@@ -97,6 +97,13 @@ public:
           max_rows_(std::min<std::size_t>(6000, 40000 / classes)),
           examples_(classes, std::vector<TemplateExamples>(images.size())) {
         check(options);
+        for (std::uint32_t c = 0; c < classes; ++c) {
+            const auto own =
+                std::size_t(std::count_if(images.begin(), images.end(), [&](const TemplateImage& image) {
+                    return shows(image.labels, c);
+                }));
+            learnt_from_.push_back(std::min(images.size(), own + max_other_images(classes)));
+        }
         TemplateFit blank{.sides = std::vector<std::vector<std::uint8_t>>(classes),
                           .mined = {classes, std::vector<std::vector<float>>(images.size())},
                           .taken = std::vector<std::vector<Box>>(images.size())};
@@ -121,7 +128,7 @@ public:
             const BoxGrid& grid = fits_[0].templates[c].grid;
             TemplateExamples& examples = examples_[c][image];
             examples = first_examples(images_[image], pyramid, c, grid, options_.jittered_copies,
-                                      negatives_of_image(), random);
+                                      negatives_of_image(c), random);
             add_turned_examples(images_[image], c, grid, turned_copies_, random, of_turned, pool, examples);
         }
     }
@@ -134,7 +141,8 @@ public:
         const TemplateImage& shown = images_[image];
         std::vector<std::vector<SearchedBox>> taken(chosen.size());
         for (std::uint32_t c = 0; c < examples_.size(); ++c) {
-            std::vector<ProposedBox> proposals = shown.proposals;
+            if (!learns_from(shown, c)) continue;
+            std::vector<ProposedBox> proposals = shown.asked[c];
             for (const ObjectLabel& label : shown.labels)
                 for (int k = 0; k < 4 && label.class_index == c; ++k)
                     proposals.push_back({c, jittered(label.box, random, 0.4, 0.3, 0.3)});
@@ -144,7 +152,7 @@ public:
             CellRows rows(pyramid, fits_[0].templates[c].grid);
             for (std::size_t k = 0; k < chosen.size(); ++k) {
                 TemplateFit& fit = fits_[chosen[k]];
-                std::size_t room = mined_of_image(fit);
+                std::size_t room = mined_of_image(fit, c);
                 for (const SearchedBox& box : found[k]) {
                     if (room == 0 || box.score <= -1) break;
                     taken[k].push_back(box);
@@ -173,12 +181,12 @@ public:
 
 private:
     // so that the rows of all classes stay below a gigabyte
-    [[nodiscard]] std::size_t negatives_of_image() const {
-        return std::max<std::size_t>(2, max_rows_ / images_.size());
+    [[nodiscard]] std::size_t negatives_of_image(std::size_t class_index) const {
+        return std::max<std::size_t>(2, max_rows_ / learnt_from_[class_index]);
     }
-    [[nodiscard]] std::size_t mined_of_image(const TemplateFit& fit) const {
+    [[nodiscard]] std::size_t mined_of_image(const TemplateFit& fit, std::size_t class_index) const {
         const std::size_t share = fit.fold == TemplateFit::no_fold ? 1 : fits_.size() - 1;
-        return std::clamp<std::size_t>(max_rows_ / images_.size() / share, 2, 6);
+        return std::clamp<std::size_t>(max_rows_ / learnt_from_[class_index] / share, 2, 6);
     }
     [[nodiscard]] bool sees_all_classes(const TemplateFit& fit) const {
         std::vector<bool> seen(examples_.size(), false);
@@ -221,7 +229,8 @@ private:
     std::span<const std::size_t> fold_of_;
     TemplateOptions options_;
     int turned_copies_;
-    std::size_t max_rows_;
+    std::size_t max_rows_;                                 // of negatives of a class
+    std::vector<std::size_t> learnt_from_;                 // images, of each class
     std::vector<std::vector<TemplateExamples>> examples_;  // of each class and image
     std::vector<TemplateFit> fits_ = {};
 };

@@ -12,6 +12,7 @@
 #include "ism/core/lists.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/thread_pool.hpp"
+#include "ism/detect/asked_proposals.hpp"
 #include "ism/detect/proposals.hpp"
 #include "ism/model/figure_colors.hpp"
 #include "ism/train/cross_judge.hpp"
@@ -53,6 +54,18 @@ namespace detail {
     return objects;
 }
 
+/// Those of many images that a class does not learn from: an even choice of what does not show it is left.
+[[nodiscard]] inline std::vector<bool> left_out_images(std::span<const TrainingView* const> views,
+                                                       std::uint32_t class_index, std::size_t classes) {
+    std::vector<bool> left_out(views.size(), false);
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (!shows(views[i]->labels, class_index)) others.push_back(i), left_out[i] = true;
+    const std::size_t count = std::min(max_other_images(classes), others.size());
+    for (std::size_t k = 0; k < count; ++k) left_out[others[k * others.size() / count]] = false;
+    return left_out;
+}
+
 /// The training images with the hypotheses that their objects' own votes had no part in.
 [[nodiscard]] inline std::vector<TemplateImage> template_images(const Model& model,
                                                                 const TrainingFeatures& features,
@@ -62,6 +75,9 @@ namespace detail {
         if (!view.pixels.empty()) views.push_back(&view);
     std::vector<WordIndex> words;
     for (const Channel& channel : model.channels) words.emplace_back(channel.codebook);
+    const std::size_t classes = model.shapes.class_names.size();
+    std::vector<std::vector<bool>> left_out;  // by each class
+    for (std::uint32_t c = 0; c < classes; ++c) left_out.push_back(left_out_images(views, c, classes));
     std::vector<TemplateImage> images(views.size());
     ProgressCounter counter(progress, "voting on training images", views.size());
     parallel_for(views.size(), threads, [&](std::size_t i) {
@@ -79,7 +95,10 @@ namespace detail {
         for (const Detection& guess : find_hypotheses<EpanechnikovKernel, Jism::dimension>(
                  scene, votes, proposal_bandwidth<Jism>(), search))
             images[i].proposals.push_back({guess.class_index, guess.box});
+        images[i].asked = asked_proposals(images[i].proposals, votes, asked_classes, model.shapes);
         images[i].voted = VotedBoxes(votes, scene.features, model.shapes);
+        for (std::uint32_t c = 0; c < classes; ++c)
+            if (left_out[c][i]) images[i].asked[c] = {}, images[i].voted.forget(c);
         counter.step();
     });
     return images;

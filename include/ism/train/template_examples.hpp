@@ -57,9 +57,10 @@ struct TemplateImage {
     ImageView<const Rgb> color;
     std::vector<ObjectLabel> labels;
     std::vector<ProposedBox> proposals;
-    std::vector<const Mask*> masks = {};  ///< of each label; none where it is not known
-    WordMap words = {};                   ///< for judges that know words too …
-    VotedBoxes voted = {};                ///< … and votes, without those of its own objects
+    std::vector<std::vector<ProposedBox>> asked = {};  ///< … those that each class is asked about
+    std::vector<const Mask*> masks = {};               ///< of each label; none where it is not known
+    WordMap words = {};                                ///< for judges that know words too …
+    VotedBoxes voted = {};                             ///< … and votes, without those of its own objects
 };
 
 namespace detail {
@@ -81,6 +82,23 @@ namespace detail {
     for (const ObjectLabel& label : labels)
         if (label.class_index == class_index) best = std::max(best, iou(box, label.box));
     return best;
+}
+
+/// Whether an image shows an object of a class.
+[[nodiscard]] inline bool shows(const std::vector<ObjectLabel>& labels, std::uint32_t class_index) {
+    return std::any_of(labels.begin(), labels.end(),
+                       [&](const ObjectLabel& label) { return label.class_index == class_index; });
+}
+
+/// Images that do not show a class and that it learns from nevertheless, at most: each class searches them
+/// all, so that many classes would otherwise take time as their square.
+[[nodiscard]] inline std::size_t max_other_images(std::size_t classes) {
+    return std::max<std::size_t>(200, 4000 / classes);
+}
+
+/// Whether a class learns from an image, as an example of itself or of what it is not.
+[[nodiscard]] inline bool learns_from(const TemplateImage& image, std::uint32_t class_index) {
+    return !image.asked[class_index].empty() || shows(image.labels, class_index);
 }
 
 /// The number of objects in images.
@@ -171,6 +189,7 @@ private:
             rows.append(box, true, examples.mirrored);
         }
     }
+    if (!learns_from(image, class_index)) others.clear();
     std::erase_if(others, [&](const Box& box) { return best_iou(box, image.labels, class_index) >= 0.4; });
     examples.negative.reserve(std::min(max_negatives, others.size()) * grid.cells() * cell_numbers);
     for (std::size_t count = 0; count < max_negatives && !others.empty(); ++count) {
