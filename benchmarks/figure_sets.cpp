@@ -9,6 +9,7 @@
 // - figure_sets without-object SET.json K TRAIN.json TEST.json: object K of each class (instance, or car7-…)
 //   apart from the others
 // - figure_sets random-part SET.json SEED OUT.json: four of five images, by chance
+// - figure_sets joint SET.json OTHER.json OUT.json: the images of both, classes of one name as one; by colour
 // - figure_sets without-masks SET.json OUT.json: with the boxes of the labels alone
 #include <algorithm>
 #include <array>
@@ -19,6 +20,7 @@
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -187,6 +189,29 @@ struct Turn {
     return set;
 }
 
+/// The images of both, whose classes of one name are one. Depth and instances are forgotten.
+[[nodiscard]] ism::Dataset joint(ism::Dataset set, const ism::Dataset& other) {
+    std::vector<std::uint32_t> class_of;
+    for (const std::string& name : other.class_names) {
+        const auto known = std::find(set.class_names.begin(), set.class_names.end(), name);
+        class_of.push_back(std::uint32_t(known - set.class_names.begin()));
+        if (known == set.class_names.end()) set.class_names.push_back(name);
+    }
+    set.category_ids.resize(set.class_names.size());
+    std::iota(set.category_ids.begin(), set.category_ids.end(), std::int64_t(1));
+    for (ism::DatasetImage image : other.images) {
+        for (ism::DatasetAnnotation& object : image.objects)
+            object.class_index = class_of[object.class_index];
+        set.images.push_back(std::move(image));
+    }
+    std::int64_t id = 0;
+    for (ism::DatasetImage& image : set.images) {
+        image.id = ++id, image.depth_file.clear(), image.camera.reset();
+        for (ism::DatasetAnnotation& object : image.objects) object.id = ++id, object.instance.clear();
+    }
+    return set;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -201,6 +226,8 @@ int main(int argc, char** argv) try {
         ism::write_dataset(words[4], of_object(std::move(set), words[2], true));
     } else if (what == "random-part") {
         ism::write_dataset(words[3], random_part(std::move(set), words[2]));
+    } else if (what == "joint") {
+        ism::write_dataset(words[3], joint(std::move(set), ism::read_dataset(words[2])));
     } else if (what == "without-masks") {
         for (ism::DatasetImage& image : set.images)
             for (ism::DatasetAnnotation& object : image.objects) object.segmentation = {};

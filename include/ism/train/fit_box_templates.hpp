@@ -125,6 +125,7 @@ public:
         Random random(image + 1);
         HogPyramid of_turned;
         for (std::uint32_t c = 0; c < examples_.size(); ++c) {
+            if (!learns_from(images_[image], c)) continue;
             const BoxGrid& grid = fits_[0].templates[c].grid;
             TemplateExamples& examples = examples_[c][image];
             examples = first_examples(images_[image], pyramid, c, grid, options_.jittered_copies,

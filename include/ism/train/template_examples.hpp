@@ -189,7 +189,6 @@ private:
             rows.append(box, true, examples.mirrored);
         }
     }
-    if (!learns_from(image, class_index)) others.clear();
     std::erase_if(others, [&](const Box& box) { return best_iou(box, image.labels, class_index) >= 0.4; });
     examples.negative.reserve(std::min(max_negatives, others.size()) * grid.cells() * cell_numbers);
     for (std::size_t count = 0; count < max_negatives && !others.empty(); ++count) {
