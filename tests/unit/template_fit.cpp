@@ -102,7 +102,7 @@ TEST_CASE("templates that are fitted without a fold know nothing of its pixels")
 }
 
 TEST_CASE("a class learns nothing from an image that it is not asked about") {
-    Lined set(12, fold_count), changed(12, fold_count);
+    Lined set(6, fold_count), changed(6, fold_count);
     constexpr std::size_t image = 4;  // of class 0
     ism::Random random(200);
     changed.pixels[image] = lined(0, random);
