@@ -14,6 +14,7 @@
 #include "ism/core/error.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/random.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/voted_boxes.hpp"
@@ -86,8 +87,7 @@ namespace detail {
 
 /// Whether an image shows an object of a class.
 [[nodiscard]] inline bool shows(const std::vector<ObjectLabel>& labels, std::uint32_t class_index) {
-    return std::any_of(labels.begin(), labels.end(),
-                       [&](const ObjectLabel& label) { return label.class_index == class_index; });
+    return any_of(labels, [&](const ObjectLabel& label) { return label.class_index == class_index; });
 }
 
 /// Images that do not show a class and that it learns from nevertheless, at most: each class searches them
