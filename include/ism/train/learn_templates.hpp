@@ -55,7 +55,7 @@ namespace detail {
     return objects;
 }
 
-/// Those of many images that a class does not learn from: an even choice of what does not show it is left.
+/// The images that a class does not learn from: of those that do not show it all but an even choice.
 [[nodiscard]] inline std::vector<bool> left_out_images(std::span<const TrainingView* const> views,
                                                        std::uint32_t class_index, std::size_t classes) {
     std::vector<bool> left_out(views.size(), false);

@@ -90,8 +90,8 @@ namespace detail {
     return any_of(labels, [&](const ObjectLabel& label) { return label.class_index == class_index; });
 }
 
-/// Images that do not show a class and that it learns from nevertheless, at most: each class searches them
-/// all, so that many classes would otherwise take time as their square.
+/// How many images that do not show a class it learns from, at most: each class searches them all, which
+/// otherwise takes time as the square of the classes.
 [[nodiscard]] inline std::size_t max_other_images(std::size_t classes) {
     return std::max<std::size_t>(200, 4000 / classes);
 }
