@@ -5,6 +5,8 @@
 // - figure_sets with-background SET.json FOLDER OUT.json: and the photographs of a folder, without objects
 // - figure_sets only-background SET.json FOLDER OUT.json: these alone, with the classes of the set
 // - figure_sets rescaled SET.json FOLDER: each image at a random size, in FOLDER with set.json
+// - figure_sets scenes SET.json FOLDER: nine images at a time, by chance, side by side in one picture of 1440
+// × 1080
 // - figure_sets turned SET.json FOLDER: each image turned at random about its middle, in FOLDER with set.json
 // - figure_sets without-object SET.json K TRAIN.json TEST.json: object K of each class (instance, or car7-…)
 //   apart from the others
@@ -52,6 +54,20 @@ namespace fs = std::filesystem;
     return set;
 }
 
+[[nodiscard]] ism::RgbImage resized(const ism::RgbImage& before, int width, int height) {
+    std::vector<float> colors;
+    for (const ism::Rgb c : before.pixels())
+        colors.insert(colors.end(), {float(c.r), float(c.g), float(c.b)});
+    ism::RgbImage after(width, height);
+    const auto numbers = ism::resize_area(colors, before.width(), before.height(), 3, width, height);
+    const auto byte = [&](std::size_t i) {
+        return std::uint8_t(std::lround(std::clamp(numbers[i], 0.f, 255.f)));
+    };
+    for (std::size_t i = 0; i < after.pixels().size(); ++i)
+        after.pixels()[i] = {byte(3 * i), byte(3 * i + 1), byte(3 * i + 2)};
+    return after;
+}
+
 /// Each image at .8 to 2.8 of its size, evenly in the logarithm; boxes alike.
 [[nodiscard]] ism::Dataset rescaled(ism::Dataset set, const fs::path& folder) {
     fs::create_directories(folder);
@@ -59,18 +75,8 @@ namespace fs = std::filesystem;
     for (ism::DatasetImage& image : set.images) {
         const double factor = 0.8 * std::pow(2.8 / 0.8, random.uniform());
         const ism::RgbImage before = ism::read_rgb(image.file);
-        std::vector<float> colors;
-        for (const ism::Rgb c : before.pixels())
-            colors.insert(colors.end(), {float(c.r), float(c.g), float(c.b)});
-        ism::RgbImage after(int(std::lround(factor * before.width())),
-                            int(std::lround(factor * before.height())));
-        const auto numbers =
-            ism::resize_area(colors, before.width(), before.height(), 3, after.width(), after.height());
-        const auto byte = [&](std::size_t i) {
-            return std::uint8_t(std::lround(std::clamp(numbers[i], 0.f, 255.f)));
-        };
-        for (std::size_t i = 0; i < after.pixels().size(); ++i)
-            after.pixels()[i] = {byte(3 * i), byte(3 * i + 1), byte(3 * i + 2)};
+        const ism::RgbImage after = resized(before, int(std::lround(factor * before.width())),
+                                            int(std::lround(factor * before.height())));
         const double fx = double(after.width()) / before.width(),
                      fy = double(after.height()) / before.height();
         for (ism::DatasetAnnotation& object : image.objects) {
@@ -83,6 +89,49 @@ namespace fs = std::filesystem;
         ism::write_png(image.file, after);
     }
     return set;
+}
+
+/// Scenes of many objects: nine images at a time in three rows, each as large as 480 × 360 pixels hold it,
+/// and what few are left over not at all.
+[[nodiscard]] ism::Dataset scenes(const ism::Dataset& set, const fs::path& folder) {
+    constexpr int columns = 3, rows = 3, width = 480, height = 360;
+    constexpr std::size_t at_once = columns * rows;
+    fs::create_directories(folder);
+    ism::Random random(1);
+    std::vector<std::size_t> order(set.images.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.index(i)]);
+    ism::Dataset result = set;
+    result.images.clear();
+    for (std::size_t first = 0; first + at_once <= order.size(); first += at_once) {
+        const auto id = std::int64_t(result.images.size() + 1);
+        ism::DatasetImage scene{.id = id,
+                                .file = folder / (std::to_string(id) + ".png"),
+                                .width = columns * width,
+                                .height = rows * height};
+        ism::RgbImage picture(scene.width, scene.height);
+        for (ism::Rgb& pixel : picture.pixels()) pixel = {128, 128, 128};
+        for (std::size_t k = 0; k < at_once; ++k) {
+            const ism::DatasetImage& image = set.images[order[first + k]];
+            const ism::RgbImage before = ism::read_rgb(image.file);
+            const double factor = std::min(double(width) / before.width(), double(height) / before.height());
+            const ism::RgbImage part = resized(before, int(std::lround(factor * before.width())),
+                                               int(std::lround(factor * before.height())));
+            const int left = int(k) % columns * width + (width - part.width()) / 2,
+                      top = int(k) / columns * height + (height - part.height()) / 2;
+            for (int y = 0; y < part.height(); ++y)
+                for (int x = 0; x < part.width(); ++x) picture(left + x, top + y) = part(x, y);
+            for (ism::DatasetAnnotation object : image.objects) {
+                const ism::Box b = object.box;
+                object.box = {left + factor * b.x, top + factor * b.y, factor * b.width, factor * b.height};
+                object.segmentation = {};
+                scene.objects.push_back(std::move(object));
+            }
+        }
+        ism::write_png(scene.file, picture);
+        result.images.push_back(std::move(scene));
+    }
+    return result;
 }
 
 /// An image turned about its middle, on a square.
@@ -217,7 +266,7 @@ struct Turn {
 int main(int argc, char** argv) try {
     const std::vector<std::string> words(argv + 1, argv + argc);
     const std::string what = words.empty() ? "" : words[0];
-    const bool three = what == "rescaled" || what == "turned" || what == "without-masks";
+    const bool three = what == "rescaled" || what == "scenes" || what == "turned" || what == "without-masks";
     const std::size_t count = what == "without-object" ? 5 : three ? 3 : 4;
     ism::expect(words.size() == count, "arguments", "those of the head of figure_sets.cpp", words.size());
     ism::Dataset set = ism::read_dataset(words[1]);
@@ -232,10 +281,11 @@ int main(int argc, char** argv) try {
         for (ism::DatasetImage& image : set.images)
             for (ism::DatasetAnnotation& object : image.objects) object.segmentation = {};
         ism::write_dataset(words[2], set);
-    } else if (what == "rescaled" || what == "turned") {
+    } else if (what == "rescaled" || what == "scenes" || what == "turned") {
         const fs::path folder = words[2];
-        ism::write_dataset(folder / "set.json", what == "turned" ? turned(std::move(set), folder)
-                                                                 : rescaled(std::move(set), folder));
+        ism::write_dataset(folder / "set.json", what == "turned"   ? turned(std::move(set), folder)
+                                                : what == "scenes" ? scenes(set, folder)
+                                                                   : rescaled(std::move(set), folder));
     } else {
         if (what == "only-background") set.images.clear();
         ism::write_dataset(words[3], with_background(std::move(set), words[2]));
