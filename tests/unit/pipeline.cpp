@@ -243,8 +243,10 @@ TEST_CASE("options of detection and of its policies are refused by name") {
         change(recognition);
         CHECK_THROWS_WITH(ism::detect(model, frame, recognition), Catch::Contains(what));
     };
-    for (const double bad : {-0.1, 1.5, std::nan("")})
+    for (const double bad : {-0.1, 1.5, std::nan("")}) {
         refuses("DetectOptions::min_relative_score", [&](auto& r) { r.options.min_relative_score = bad; });
+        refuses("DetectOptions::min_relative_votes", [&](auto& r) { r.options.min_relative_votes = bad; });
+    }
     for (const double bad : {-1.0, 1e10, std::nan("")}) {
         refuses("DetectOptions::min_size_px", [&](auto& r) { r.options.min_size_px = bad; });
         refuses("DetectOptions::max_size_px", [&](auto& r) { r.options.max_size_px = bad; });

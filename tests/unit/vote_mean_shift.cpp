@@ -270,6 +270,37 @@ TEST_CASE("mean shift starts at the heaviest bins, and no bin is taken for anoth
     CHECK(expected[heavy.size()].score < 0.5 * heavy.front().score);
 }
 
+TEST_CASE("a place with many heavy bins takes no seeds from another where only peaks are seeds") {
+    ism::Random random(3);
+    std::vector<ism::Vote<2>> votes;
+    for (int i = 0; i < 2000; ++i)  // a wide heap around the origin, thinner outwards
+        votes.push_back({.at = {float(30 * random.normal()), float(30 * random.normal())}, .weight = 1});
+    for (int i = 0; i < 20; ++i)
+        votes.push_back({.at = {float(505 + random.normal()), float(505 + random.normal())}, .weight = 1});
+    const ism::Bandwidth<2> bandwidth{{10, 10}, {ism::BandwidthScaling::none, ism::BandwidthScaling::none}};
+    const auto finds_lone = [&](bool peaks_only) {
+        const auto modes = ism::find_modes<ism::EpanechnikovKernel>(
+            std::span<const ism::Vote<2>>(votes), bandwidth,
+            {.max_seeds = 30, .min_relative_weight = 0, .peaks_only = peaks_only});
+        return std::any_of(modes.begin(), modes.end(), [](const auto& mode) { return mode.at[0] > 400; });
+    };
+    CHECK_FALSE(finds_lone(false));
+    CHECK(finds_lone(true));
+
+    ism::SeedBins<2> all_bins, peak_bins;
+    const std::span<const ism::Vote<2>> given(votes);
+    const auto all = all_bins.find(given, bandwidth, 10000, 0);
+    const auto peaks = peak_bins.find(given, bandwidth, 10000, 0, true);
+    CHECK(peaks.size() < all.size() / 2);
+    CHECK(peaks.front().score == all.front().score);  // the heaviest of all is a peak
+    // none lies beside a heavier one
+    for (const auto& a : peaks)
+        for (const auto& b : peaks)
+            if (a.score > b.score)
+                CHECK((std::abs(std::floor(a.at[0] / 10) - std::floor(b.at[0] / 10)) > 1 ||
+                       std::abs(std::floor(a.at[1] / 10) - std::floor(b.at[1] / 10)) > 1));
+}
+
 TEST_CASE("modes are found where votes gather, strongest first, each once") {
     ism::Random random(2);
     std::vector<ism::Vote<2>> votes;

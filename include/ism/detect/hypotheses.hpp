@@ -156,9 +156,10 @@ template <Kernel K, std::size_t Dimension>
                                                      const Bandwidth<Dimension>& bandwidth,
                                                      const DetectOptions& options,
                                                      DescribeHypothesis* describe = describe_hypothesis) {
+    const double least = std::max(options.min_relative_score, options.min_relative_votes);
     const auto labels = split_by_label(votes);
-    const auto modes = strongest_modes<K>(labels, bandwidth, options.mean_shift, options.max_candidates,
-                                          options.min_relative_score, scene.pool);
+    const auto modes =
+        strongest_modes<K>(labels, bandwidth, options.mean_shift, options.max_candidates, least, scene.pool);
     std::vector<Detection> hypotheses(modes.size());
     scene.pool.for_each(modes.size(), [&](std::size_t i, unsigned) {
         const auto of_label = std::lower_bound(
@@ -176,8 +177,7 @@ template <Kernel K, std::size_t Dimension>
     detail::drop_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
     detail::sort_by(hypotheses,
                     [](const Detection& hypothesis) { return detail::falling(hypothesis.score); });
-    while (!hypotheses.empty() &&
-           hypotheses.back().score < options.min_relative_score * hypotheses.front().score)
+    while (!hypotheses.empty() && hypotheses.back().score < least * hypotheses.front().score)
         hypotheses.pop_back();
     return hypotheses;
 }

@@ -35,8 +35,9 @@ namespace ism {
 /// template's margin with what the other cues are worth, see CueWeights; the support are the votes of the
 /// class that agree with the box that was found.
 struct TemplateScore {
-    std::size_t max_proposals = 150;         ///< hypotheses that are asked, the strongest
-    std::size_t max_boxes = searched_boxes;  ///< of a class that are placed by searching
+    std::size_t max_proposals = most_proposals;  ///< hypotheses that are asked, the strongest
+    std::size_t least_boxes = searched_boxes;  ///< of a class that are placed by searching; more where there
+                                               ///< are many hypotheses, see boxes_to_search()
     std::size_t max_classes =
         asked_classes;  ///< that are asked about a hypothesis, those of most vote weight there
     double min_agreement =
@@ -52,7 +53,7 @@ struct TemplateScore {
 /// @throws Error for one out of range.
 inline void check(const TemplateScore& options) {
     expect(options.max_proposals > 0, "TemplateScore::max_proposals", "1 or more", 0);
-    expect(options.max_boxes > 0, "TemplateScore::max_boxes", "1 or more", 0);
+    expect(options.least_boxes > 0, "TemplateScore::least_boxes", "1 or more", 0);
     expect(options.max_classes > 0, "TemplateScore::max_classes", "1 or more", 0);
     expect(options.min_agreement >= 0 && options.min_agreement <= 1, "TemplateScore::min_agreement",
            "0 ... 1", options.min_agreement);
@@ -88,7 +89,8 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     CellScratch scratch;
     for (std::uint32_t c = 0; c < model.templates.size(); ++c) {
         const TemplateScorer scorer(model.templates[c]);
-        for (const SearchedBox& box : propose_boxes(scorer, c, pyramid, asked[c], max_boxes, scene.pool)) {
+        const std::size_t searched = boxes_to_search(asked[c], c, least_boxes);
+        for (const SearchedBox& box : propose_boxes(scorer, c, pyramid, asked[c], searched, scene.pool)) {
             Detection detection;
             detection.class_index = c, detection.box = box.box;
             if (explain) detection.cells = scorer.explain(pyramid, box.box, box.mirrored, scratch);

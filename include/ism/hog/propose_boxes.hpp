@@ -31,9 +31,22 @@ struct ProposedBox {
     Box box;
 };
 
-/// @brief Boxes of a class in an image that are searched, unless asked otherwise: in training as in
-/// detection.
+/// @brief Boxes of a class in an image that are searched, at least and unless asked otherwise: in training as
+/// in detection.
 inline constexpr std::size_t searched_boxes = 12;
+
+/// @brief Hypotheses of an image that are asked about, at most.
+inline constexpr std::size_t most_proposals = 5000;
+
+/// @brief How many boxes of a class are searched in an image: `least`, or one of ten hypotheses whose votes
+/// speak for it, since a picture of many places is searched at more of them.
+[[nodiscard]] inline std::size_t boxes_to_search(std::span<const ProposedBox> proposals,
+                                                 std::uint32_t class_index, std::size_t least) {
+    const auto own = std::count_if(proposals.begin(), proposals.end(), [&](const ProposedBox& proposal) {
+        return proposal.class_index == class_index;
+    });
+    return std::max(least, std::size_t(own) / 10);
+}
 
 /// @brief Classes that are asked about a hypothesis, unless asked otherwise: in training as in detection.
 inline constexpr std::size_t asked_classes = 8;

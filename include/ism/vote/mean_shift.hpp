@@ -25,6 +25,8 @@ namespace ism {
 struct MeanShiftOptions {
     std::size_t max_seeds = 30;         ///< heaviest bins of a label from which a search starts
     double min_relative_weight = 0.05;  ///< of a seed's bin, to that of the label's heaviest
+    bool peaks_only = false;  ///< a search starts only from a bin that none beside it outweighs: one place
+                              ///< takes no seeds from another
     int max_iterations = 50;
     double tolerance = 1e-3;     ///< a search ends where its step is shorter than this part of the window
     double merge_radius = 0.03;  ///< and, without a mode of its own, this part of the window from a known one
@@ -120,7 +122,8 @@ template <Kernel K, std::size_t Dimension, VoteSearch<Dimension> Search>
                                                          const MeanShiftOptions& options,
                                                          MeanShiftMemory<Dimension, Search>& memory) {
     memory.search.assign(votes, bandwidth);
-    const auto seeds = memory.bins.find(votes, bandwidth, options.max_seeds, options.min_relative_weight);
+    const auto seeds = memory.bins.find(votes, bandwidth, options.max_seeds, options.min_relative_weight,
+                                        options.peaks_only);
     return find_modes<K>(memory.search, seeds, options);
 }
 

@@ -26,11 +26,12 @@ public:
     /// @brief The means of the heaviest bins, heaviest first; their score is the bin's weight.
     /// @param votes  of one label, such as check() takes
     /// @param min_relative_weight  lighter bins than this part of the heaviest are left out
+    /// @param peaks_only  so are those beside a heavier one of the same step of scale
     [[nodiscard]] const std::vector<Mode<Dimension>>& find(std::span<const Vote<Dimension>> votes,
                                                            const Bandwidth<Dimension>& bandwidth,
-                                                           std::size_t max_count,
-                                                           double min_relative_weight) {
-        bins_.clear(), keys_.clear();
+                                                           std::size_t max_count, double min_relative_weight,
+                                                           bool peaks_only = false) {
+        bins_.clear(), keys_.clear(), cells_.clear();
         seeds_.clear();
         if (votes.empty()) return seeds_;
         make_windows(votes, bandwidth);
@@ -38,17 +39,33 @@ public:
         while (slots < 2 * votes.size()) slots *= 2;
         bin_at_.assign(slots, none);
         for (const auto& vote : votes) {
-            Mode<Dimension>& bin = bins_[bin_of(vote, slots - 1)];
+            Mode<Dimension>& bin = bins_[bin_of(vote)];
             const double weight = vote.weight;
             for (std::size_t k = 0; k < Dimension; ++k) bin.at[k] += weight * vote.at[k];
             bin.scale += weight * vote.scale;
             bin.score += weight;
         }
-        return heaviest(max_count, min_relative_weight);
+        return heaviest(max_count, min_relative_weight, peaks_only);
     }
 
 private:
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    /// A bin's place: its step of scale, and windows of that step along each axis.
+    struct Cell {
+        std::uint32_t level = 0;
+        std::array<double, Dimension> at = {};
+
+        /// A hash that stands for the cell: 64 bits are not the same by chance.
+        [[nodiscard]] std::uint64_t key() const {
+            std::uint64_t key = (std::uint64_t(level) + 1) * 0x9e3779b97f4a7c15u;
+            for (const double part : at) {
+                key = (key ^ std::bit_cast<std::uint64_t>(part + 0.0)) * 0x9e3779b97f4a7c15u;  // no -0
+                key ^= key >> 29;
+            }
+            return key;
+        }
+    };
 
     /// Steps of scale, four an octave: the exponent of a float and the first two digits behind it.
     [[nodiscard]] static std::uint32_t level_of(float scale) {
@@ -70,31 +87,49 @@ private:
         }
     }
 
+    /// Where the bin of a key stands in bin_at_, or would.
+    [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
+        const std::size_t mask = bin_at_.size() - 1;
+        std::size_t slot = key & mask;
+        while (bin_at_[slot] != none && keys_[bin_at_[slot]] != key) slot = (slot + 1) & mask;
+        return slot;
+    }
+
     /// The number of a vote's bin, a new one if it is the first there.
-    [[nodiscard]] std::uint32_t bin_of(const Vote<Dimension>& vote, std::size_t slot_mask) {
-        const std::uint32_t level = level_of(vote.scale);
-        const auto& per_window = per_window_[level - lowest_];
-        // A hash of the cell stands for the cell: 64 bits are not the same by chance.
-        std::uint64_t key = (std::uint64_t(level) + 1) * 0x9e3779b97f4a7c15u;
-        for (std::size_t k = 0; k < Dimension; ++k) {
-            const double cell = std::floor(vote.at[k] * per_window[k]) + 0.0;  // no -0
-            key = (key ^ std::bit_cast<std::uint64_t>(cell)) * 0x9e3779b97f4a7c15u;
-            key ^= key >> 29;
-        }
-        std::size_t slot = key & slot_mask;
-        while (bin_at_[slot] != none && keys_[bin_at_[slot]] != key) slot = (slot + 1) & slot_mask;
+    [[nodiscard]] std::uint32_t bin_of(const Vote<Dimension>& vote) {
+        Cell cell{level_of(vote.scale)};
+        const auto& per_window = per_window_[cell.level - lowest_];
+        for (std::size_t k = 0; k < Dimension; ++k) cell.at[k] = std::floor(vote.at[k] * per_window[k]);
+        const std::uint64_t key = cell.key();
+        const std::size_t slot = slot_of(key);
         if (bin_at_[slot] == none) {
             bin_at_[slot] = static_cast<std::uint32_t>(bins_.size());
             keys_.push_back(key);
+            cells_.push_back(cell);
             bins_.push_back({.at = {}, .scale = 0, .score = 0, .label = vote.label});
         }
         return bin_at_[slot];
     }
 
+    /// Whether none of the bins beside a bin, along any axes, is heavier.
+    [[nodiscard]] bool is_peak(std::uint32_t bin) const {
+        std::size_t neighbours = 1;  // and the bin itself
+        for (std::size_t k = 0; k < Dimension; ++k) neighbours *= 3;
+        for (std::size_t n = 0; n < neighbours; ++n) {
+            Cell beside = cells_[bin];
+            std::size_t steps = n;
+            for (double& part : beside.at) part += double(steps % 3) - 1, steps /= 3;
+            const std::uint32_t other = bin_at_[slot_of(beside.key())];
+            if (other != none && bins_[other].score > bins_[bin].score) return false;
+        }
+        return true;
+    }
+
     [[nodiscard]] const std::vector<Mode<Dimension>>& heaviest(std::size_t max_count,
-                                                               double min_relative_weight) {
-        order_.resize(bins_.size());
-        for (std::uint32_t i = 0; i < order_.size(); ++i) order_[i] = i;
+                                                               double min_relative_weight, bool peaks_only) {
+        order_.clear();
+        for (std::uint32_t i = 0; i < bins_.size(); ++i)
+            if (!peaks_only || is_peak(i)) order_.push_back(i);
         const std::size_t count = std::min(max_count, order_.size());
         std::partial_sort(order_.begin(), order_.begin() + std::ptrdiff_t(count), order_.end(),
                           [&](std::uint32_t a, std::uint32_t b) {
@@ -115,6 +150,7 @@ private:
     std::vector<std::array<double, Dimension>> per_window_;
     std::vector<std::uint32_t> bin_at_, order_;
     std::vector<std::uint64_t> keys_;
+    std::vector<Cell> cells_;
     std::vector<Mode<Dimension>> bins_, seeds_;
 };
 
