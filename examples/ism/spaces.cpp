@@ -82,7 +82,7 @@ ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
     recognition.rescorer.explain = search.explain;
     recognition.verifier.suppression = search.verifier == "nms" || (search.verifier == "auto" && templates);
     if (templates)
-        recognition.options = ism::proposal_options(),
+        recognition.options = ism::proposal_options<Space>(),
         recognition.bandwidth = ism::proposal_bandwidth<Space>();
     recognition.options.min_probability = min_probability(search, scene.model);
     recognition.options.min_relative_score = search.keep.value_or(recognition.options.min_relative_score);

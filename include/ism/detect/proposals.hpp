@@ -9,22 +9,25 @@
 
 namespace ism {
 
-/// @brief What is asked of votes that only propose, for templates to judge: weak hypotheses too, of any size
-/// that the image holds. A wide picture has more places than a close one, which all get their share: what
-/// bounds the number of hypotheses is but a guard of memory.
-[[nodiscard]] inline DetectOptions proposal_options() {
+/// @brief What is asked of votes that only propose, for templates to judge: the strongest hypotheses of the
+/// picture, weak ones too, of any size that it holds. Where templates learn they judge as well from these few
+/// and take three quarters of the time.
+[[nodiscard]] inline DetectOptions strongest_proposal_options() {
+    return {.min_relative_score = 0.01, .max_candidates = 150, .max_size_px = 1e6};
+}
+
+/// @brief The same where templates detect: a wide picture has more places than a close one, which all get
+/// their share, and what bounds the number of hypotheses is but a guard of memory. In spaces with depth more
+/// of them bring less.
+template <VoteSpaceType Space>
+[[nodiscard]] DetectOptions proposal_options() {
+    if (Space::needs_depth) return strongest_proposal_options();
     return {.min_relative_score = 0.01,
             .min_relative_votes = 0.1,
             .max_candidates = most_proposals,
             .max_hypotheses = 400,
             .max_size_px = 1e6,
             .mean_shift = {.max_seeds = most_proposals, .peaks_only = true}};
-}
-
-/// @brief The same where templates learn, from a quarter of the hypotheses: they judge as well then, and take
-/// three quarters of the time.
-[[nodiscard]] inline DetectOptions training_proposal_options() {
-    return {.min_relative_score = 0.01, .max_candidates = 150, .max_size_px = 1e6};
 }
 
 /// @brief The bandwidth of votes that only propose: narrower than where votes decide, so that neighbours stay

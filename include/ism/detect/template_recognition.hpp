@@ -17,7 +17,7 @@ namespace ism {
 template <VoteSpaceType Space = Jism, Segmenter S = PatchSegmenter>
 [[nodiscard]] Recognition<Space, EpanechnikovKernel, TemplateScore, S, NonMaximumSuppression>
 template_recognition(S segmenter = {}) {
-    return {.options = proposal_options(),
+    return {.options = proposal_options<Space>(),
             .bandwidth = proposal_bandwidth<Space>(),
             .segmenter = segmenter,
             .verifier = {.max_inside = 0.5, .across_classes = false}};

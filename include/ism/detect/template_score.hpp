@@ -80,7 +80,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
                with_words = weights.words > 0 && !model.box_classifier.empty(),
                with_colors = weights.contrast + weights.colors > 0 && !model.figures.empty();
     const WordMap words = with_words ? WordMap(scene.features, scene.matches, model.words()) : WordMap();
-    const DetectOptions options = proposal_options();
+    const DetectOptions options = proposal_options<Jism>();
     const auto votes = cast_votes<Jism>(scene, options.matching, vote_limits(scene, options));
     const VotedBoxes voted(votes, scene.features, model.shapes);
     const auto asked = asked_proposals(proposals, votes, max_classes, model.shapes);
