@@ -41,7 +41,7 @@ struct Listener {
 /// Objects, and how many of them are overlapped by what.
 struct Counts {
     double objects = 0, images = 0, hypotheses = 0;
-    std::array<double, 5> hit = {};  ///< by one of any class, of the own, of the strongest: the same; told
+    std::array<double, 3> hit = {};  ///< by one of any class, of the own; told
 };
 
 [[nodiscard]] bool overlapped(const ism::DatasetAnnotation& object, std::span<const ism::Detection> by,
@@ -63,14 +63,11 @@ struct Counts {
                     .verifier = as_program.verifier};
     ism::ThreadPool one(1);
     const auto told = ism::recognise(program::Matcher(model, one).scene(frame, "jism"), recognition);
-    const std::span strongest =
-        std::span(all).first(std::min(all.size(), ism::TemplateScore{}.max_proposals));
     Counts counts{.images = 1, .hypotheses = double(all.size())};
     for (const ism::DatasetAnnotation& object : image.objects) {
         if (object.crowd) continue;
         counts.objects += 1;
-        const std::array hit = {overlapped(object, strongest, true), overlapped(object, strongest, false),
-                                overlapped(object, all, true), overlapped(object, all, false),
+        const std::array hit = {overlapped(object, all, true), overlapped(object, all, false),
                                 overlapped(object, told.objects, false)};
         for (std::size_t i = 0; i < hit.size(); ++i) counts.hit[i] += hit[i];
     }
@@ -101,7 +98,7 @@ int main(int argc, char** argv) try {
     if (const auto code = command_line.parse(argc, argv)) return *code;
 
     std::vector<std::vector<std::string>> cells = {
-        {"set", "objects", "hypotheses/image", "any class", "own class", "any of all", "own of all", "told"}};
+        {"set", "objects", "hypotheses/image", "any class", "own class", "told"}};
     for (const std::string& set : options.sets) {
         const Counts counts = measured(options.data / set, options.threads);
         cells.push_back(
@@ -109,8 +106,6 @@ int main(int argc, char** argv) try {
         for (const double hit : counts.hit) cells.back().push_back(bench::number(hit / counts.objects, 3));
     }
     std::fputs(ism::align_columns(cells).c_str(), stdout);
-    std::printf("any and own class: of the %zu strongest, which templates are asked about\n",
-                ism::TemplateScore{}.max_proposals);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "candidates: %s\n", error.what());
     return 1;

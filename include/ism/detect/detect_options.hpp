@@ -18,7 +18,7 @@ enum class MatchMode {
 /// @brief How objects are searched for in an image, whatever the vote space.
 struct DetectOptions {
     double min_relative_score = 0.05;  ///< T_ratio: weaker than this part of the strongest is dropped
-    double min_relative_votes = 0;     ///< the same of hypotheses, before they are rescored
+    double min_relative_votes = 0;     ///< the same of hypotheses before they are rescored, where it is more
     double min_probability = 0;        ///< what is less probable is not told; needs a rescorer that knows it
     std::size_t max_candidates = 200;  ///< at most this many, the strongest, are rescored
     std::size_t max_hypotheses = 40;   ///< the best of these after rescoring are segmented and verified

@@ -38,8 +38,8 @@ inline constexpr std::size_t searched_boxes = 12;
 /// @brief Hypotheses of an image that are asked about, at most.
 inline constexpr std::size_t most_proposals = 5000;
 
-/// @brief How many boxes of a class are searched in an image: `least`, or one of ten hypotheses whose votes
-/// speak for it, since a picture of many places is searched at more of them.
+/// @brief How many boxes of a class are searched in an image: `least`, or a tenth of the hypotheses whose
+/// votes speak for it where that is more, since a wide picture has more places for it.
 [[nodiscard]] inline std::size_t boxes_to_search(std::span<const ProposedBox> proposals,
                                                  std::uint32_t class_index, std::size_t least) {
     const auto own = std::count_if(proposals.begin(), proposals.end(), [&](const ProposedBox& proposal) {
