@@ -22,9 +22,9 @@ namespace detail {
 inline void sums_between(const HogLevel& level, int x, int top, int bottom, HogSums& sums) {
     const float *upper = level.at(x, top), *lower = level.at(x, bottom);
     for (std::size_t part = 0; part < sums.size(); ++part) {
-        EightFloats above;
-        std::memcpy(&sums[part], lower + 8 * part, sizeof(above));
-        std::memcpy(&above, upper + 8 * part, sizeof(above));
+        FourFloats above;
+        std::memcpy(&sums[part], lower + 4 * part, sizeof(above));
+        std::memcpy(&above, upper + 4 * part, sizeof(above));
         sums[part] -= above;
     }
 }
@@ -33,69 +33,77 @@ inline void sums_between(const HogLevel& level, int x, int top, int bottom, HogS
 /// lies in the image. Returns the squared length of its unsigned directions.
 [[nodiscard]] inline float take_means(HogSums& cell, float area, float inside) {
     const float by_area = 1 / area, by_inside = 1 / inside;
-    constexpr float any = -1e9f;
-    constexpr EightFloats least[] = {{}, {}, {0, 0, any, any, any, any, any, any}};
-    cell[0] *= by_area, cell[1] *= by_area;
-    cell[2] *= EightFloats{by_area, by_area, by_inside, by_inside, by_inside, 0, 0, 0};
+    for (std::size_t part = 0; part < 4; ++part) cell[part] *= by_area;
+    cell[4] *= FourFloats{by_area, by_area, by_inside, by_inside};
+    cell[5] *= by_inside;
     // rounding of the sums may leave a little less than nothing
-    for (std::size_t part = 0; part < cell.size(); ++part)
-        cell[part] = cell[part] > least[part] ? cell[part] : least[part];
-    const EightFloats both = cell[0] + cell[1], squares = both * both;
-    const float last = cell[2][0] + cell[2][1];
-    return sum_of_lanes<float, 8>(squares) + last * last;
+    constexpr float any = -1e9f;
+    const FourFloats least = {0, 0, any, any};
+    for (std::size_t part = 0; part < 4; ++part) cell[part] = cell[part] > 0 ? cell[part] : FourFloats{};
+    cell[4] = cell[4] > least ? cell[4] : least;
+    const FourFloats low = cell[0] + cell[2], high = cell[1] + cell[3], squares = low * low + high * high;
+    const float last = cell[4][0] + cell[4][1];
+    return sum_of_lanes<float, 4>(squares) + last * last;
 }
 
 /// The means of a row of cells between the lines xs, from top to bottom in pixels of the level, and the
 /// squared lengths of their directions.
-inline void row_of_cells(const HogLevel& level, std::span<const int> xs, int top, int bottom, HogSums* cells,
-                         float* energy) {
+/// @param at_lines  memory for as many as there are lines
+inline void row_of_cells(const HogLevel& level, std::span<const int> xs, int top, int bottom,
+                         HogSums* at_lines, HogSums* cells, float* energy) {
     const auto column = [&](int x) { return std::clamp(x, 0, level.width); };
     const float tall = float(std::max(1, bottom - top));
     top = std::clamp(top, 0, level.height), bottom = std::clamp(bottom, 0, level.height);
-    HogSums left, right;
-    sums_between(level, column(xs[0]), top, bottom, left);
+    // first all that comes from far memory, so that the processor waits for it at once
+    for (std::size_t i = 0; i < xs.size(); ++i) sums_between(level, column(xs[i]), top, bottom, at_lines[i]);
     for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
-        sums_between(level, column(xs[i + 1]), top, bottom, right);
         const float inside = float(column(xs[i + 1]) - column(xs[i])) * float(bottom - top);
         if (inside > 0) {
-            for (std::size_t part = 0; part < left.size(); ++part) cells[i][part] = right[part] - left[part];
+            for (std::size_t part = 0; part < cells[i].size(); ++part)
+                cells[i][part] = at_lines[i + 1][part] - at_lines[i][part];
             energy[i] = take_means(cells[i], float(std::max(1, xs[i + 1] - xs[i])) * tall, inside);
         } else {
             cells[i] = {}, energy[i] = 0;
         }
-        left = right;
     }
 }
 
 /// The numbers of a cell, by one over the lengths of the four blocks of 2 × 2 cells that it belongs to.
 inline void normalise_cell(const HogSums& cell, const float (&norms)[4], float* out) {
-    const EightFloats limit = EightFloats{} + 0.2f, unsigned_part = cell[0] + cell[1];
-    const float last = cell[2][0], opposite = cell[2][1];
-    const EightFloats ends = {last, opposite, last + opposite, 0, 0, 0, 0, 0};
-    EightFloats sum_a{}, sum_b{}, sum_unsigned{}, sum_ends{};
+    const FourFloats limit = FourFloats{} + 0.2f;
+    const float last = cell[4][0], opposite = cell[4][1];
+    // directions, their opposites, both together, and the ends of the three rows
+    const FourFloats numbers[] = {cell[0],
+                                  cell[1],
+                                  cell[2],
+                                  cell[3],
+                                  cell[0] + cell[2],
+                                  cell[1] + cell[3],
+                                  {last, opposite, last + opposite, 0}};
+    FourFloats sums[7]{};
     for (std::size_t t = 0; t < 4; ++t) {
-        EightFloats a = cell[0] * norms[t], b = cell[1] * norms[t], u = unsigned_part * norms[t],
-                    e = ends * norms[t];
-        a = a < limit ? a : limit, b = b < limit ? b : limit;
-        u = u < limit ? u : limit, e = e < limit ? e : limit;
-        sum_a += a, sum_b += b, sum_unsigned += u, sum_ends += e;
-        out[27 + t] = 0.2357f * (sum_of_lanes<float, 8>(a + b) + e[0] + e[1]);
+        FourFloats n[7];
+        for (std::size_t part = 0; part < 7; ++part) {
+            n[part] = numbers[part] * norms[t];
+            n[part] = n[part] < limit ? n[part] : limit;
+            sums[part] += n[part];
+        }
+        const FourFloats all = n[0] + n[2] + (n[1] + n[3]);
+        out[27 + t] = 0.2357f * (sum_of_lanes<float, 4>(all) + n[6][0] + n[6][1]);
     }
-    sum_a *= 0.5f, sum_b *= 0.5f, sum_unsigned *= 0.5f, sum_ends *= 0.5f;
-    std::memcpy(out, &sum_a, sizeof(sum_a));
-    out[8] = sum_ends[0];
-    std::memcpy(out + 9, &sum_b, sizeof(sum_b));
-    out[17] = sum_ends[1];
-    std::memcpy(out + 18, &sum_unsigned, sizeof(sum_unsigned));
-    out[26] = sum_ends[2];
-    out[31] = cell[2][2] - 0.5f, out[32] = cell[2][3], out[33] = cell[2][4];
+    for (FourFloats& sum : sums) sum *= 0.5f;
+    for (std::size_t row = 0; row < 3; ++row) {
+        std::memcpy(out + 9 * row, &sums[2 * row], 2 * sizeof(FourFloats));
+        out[9 * row + 8] = sums[6][row];
+    }
+    out[31] = cell[4][2] - 0.5f, out[32] = cell[4][3], out[33] = cell[5][0];
 }
 
 }  // namespace detail
 
 /// @brief Memory for one box after another.
 struct CellScratch {
-    std::vector<detail::HogSums> sums;
+    std::vector<detail::HogSums> sums, at_lines;
     std::vector<float> energy, norms, cells;
     std::vector<int> xs, ys;
 };
@@ -108,7 +116,7 @@ inline void describe_cells(const HogPyramid& pyramid, const Box& box, const BoxG
     const HogLevel& level = pyramid.level_for(std::sqrt(cell_width * cell_height));
     // the ring and one more cell around it, whose norms are needed
     const int margin = 1 + int(grid.ring), columns = grid.columns + 2 * margin, rows = grid.rows + 2 * margin;
-    auto& [sums, energy, norms, unused, xs, ys] = scratch;
+    auto& [sums, at_lines, energy, norms, unused, xs, ys] = scratch;
     const auto lines = [&](std::vector<int>& at, int count, double first, double cell, double step) {
         at.resize(std::size_t(count + 1));
         for (int i = 0; i <= count; ++i)
@@ -117,10 +125,11 @@ inline void describe_cells(const HogPyramid& pyramid, const Box& box, const BoxG
     };
     lines(xs, columns, box.x, cell_width, double(level.width) / pyramid.width());
     lines(ys, rows, box.y, cell_height, double(level.height) / pyramid.height());
-    sums.resize(std::size_t(columns * rows)), energy.resize(sums.size()), norms.resize(sums.size());
+    sums.resize(std::size_t(columns * rows)), at_lines.resize(xs.size()), energy.resize(sums.size()),
+        norms.resize(sums.size());
     for (int j = 0; j < rows; ++j)
-        detail::row_of_cells(level, xs, ys[std::size_t(j)], ys[std::size_t(j + 1)], sums.data() + j * columns,
-                             energy.data() + j * columns);
+        detail::row_of_cells(level, xs, ys[std::size_t(j)], ys[std::size_t(j + 1)], at_lines.data(),
+                             sums.data() + j * columns, energy.data() + j * columns);
     for (int j = 0; j + 1 < rows; ++j)
         for (int i = 0; i + 1 < columns; ++i) {  // of the block that begins at this cell
             const float* first = energy.data() + j * columns + i;

@@ -34,15 +34,16 @@ struct HogLevel {
 
 namespace detail {
 
-using EightFloats = Vector<float, 8>;
+/// As many as any processor works on at once: of longer vectors GCC compares number after number.
+using FourFloats = Vector<float, 4>;
 /// The sums of a place: directions 0 … 7, their opposites 9 … 16, and then 8, 17, three colours and zeros.
-using HogSums = std::array<EightFloats, hog_sums / 8>;
+using HogSums = std::array<FourFloats, hog_sums / 4>;
 
 /// Where gradients point, 0 … 18: an odd polynomial of the smaller slope, exact to 0.002 of a direction.
-inline void take_directions(const EightFloats& x, const EightFloats& y, EightFloats& turns) {
-    const EightFloats across = x > 0 ? x : -x, along = y > 0 ? y : -y;
-    const EightFloats large = across > along ? across : along, small = across > along ? along : across;
-    const EightFloats t = small / (large > 0 ? large : EightFloats{} + 1), s = t * t;
+inline void take_directions(const FourFloats& x, const FourFloats& y, FourFloats& turns) {
+    const FourFloats across = x > 0 ? x : -x, along = y > 0 ? y : -y;
+    const FourFloats large = across > along ? across : along, small = across > along ? along : across;
+    const FourFloats t = small / (large > 0 ? large : FourFloats{} + 1), s = t * t;
     // (Abramowitz and Stegun 1964, 4.4.47)
     turns = t * (2.864405f + s * (-0.946238f + s * (0.516066f + s * (-0.243888f + s * 0.059688f))));
     turns = along > across ? 4.5f - turns : turns;
@@ -50,13 +51,12 @@ inline void take_directions(const EightFloats& x, const EightFloats& y, EightFlo
     turns = y < 0 ? 18 - turns : turns;
 }
 
-/// The gradients of a row of pixels, each that of the colour where it is strongest, eight pixels side by
-/// side.
+/// The gradients of a row of pixels, each that of the colour where it is strongest, four pixels side by side.
 struct HogRow {
-    std::vector<EightFloats> x, y, strength, turn;
+    std::vector<FourFloats> x, y, strength, turn;
 
     explicit HogRow(int width)
-        : x((std::size_t(width) + 7) / 8), y(x.size()), strength(x.size()), turn(x.size()) {}
+        : x((std::size_t(width) + 3) / 4), y(x.size()), strength(x.size()), turn(x.size()) {}
 
     /// Those of row `at` of an image of three numbers a pixel.
     void fill(const std::vector<float>& rgb, int width, int height, int at) {
@@ -73,7 +73,7 @@ struct HogRow {
                 const bool stronger = sq > most;
                 most = stronger ? sq : most, best_x = stronger ? gx : best_x, best_y = stronger ? gy : best_y;
             }
-            const auto block = std::size_t(i) / 8, lane = std::size_t(i) % 8;
+            const auto block = std::size_t(i) / 4, lane = std::size_t(i) % 4;
             x[block][lane] = best_x, y[block][lane] = best_y, strength[block][lane] = std::sqrt(most);
         }
         for (std::size_t block = 0; block < x.size(); ++block)
@@ -85,10 +85,13 @@ struct HogRow {
 inline void fill_level(HogLevel& level, const std::vector<float>& rgb) {
     // Each direction gets as much as a gradient is near it; behind the last comes the first.
     constexpr float none = 99;
-    static constexpr HogSums directions = {{{0, 1, 2, 3, 4, 5, 6, 7},
-                                            {9, 10, 11, 12, 13, 14, 15, 16},
-                                            {8, 17, none, none, none, none, none, none}}};
-    static constexpr EightFloats behind_last = {18, 1, 2, 3, 4, 5, 6, 7};
+    static constexpr HogSums directions = {{{0, 1, 2, 3},
+                                            {4, 5, 6, 7},
+                                            {9, 10, 11, 12},
+                                            {13, 14, 15, 16},
+                                            {8, 17, none, none},
+                                            {none, none, none, none}}};
+    static constexpr FourFloats behind_last = {18, 1, 2, 3};
     const int width = level.width, height = level.height;
     const std::size_t row_numbers = std::size_t(width + 1) * hog_sums;
     std::fill_n(level.sums.begin(), row_numbers, 0.0f);
@@ -102,27 +105,21 @@ inline void fill_level(HogLevel& level, const std::vector<float>& rgb) {
         HogSums sum{};
         for (int x = 0; x < width; ++x, color += 3) {
             above += hog_sums, out += hog_sums;
-            const auto block = std::size_t(x) / 8, lane = std::size_t(x) % 8;
+            const auto block = std::size_t(x) / 4, lane = std::size_t(x) % 4;
             const float strength = row.strength[block][lane], turn = row.turn[block][lane];
             for (std::size_t part = 0; part < sum.size(); ++part) {
                 const bool around = part == 0 && turn > float(hog_directions - 1);
-                const EightFloats away = (around ? behind_last : directions[part]) - turn;
-                const EightFloats near = 1.0f - (away > 0 ? away : -away);
-                sum[part] += strength * (near > 0 ? near : EightFloats{});
+                const FourFloats away = (around ? behind_last : directions[part]) - turn;
+                const FourFloats near = 1.0f - (away > 0 ? away : -away);
+                sum[part] += strength * (near > 0 ? near : FourFloats{});
             }
-            sum[2] += EightFloats{0,
-                                  0,
-                                  (color[0] + color[1] + color[2]) / 3,
-                                  color[0] - color[1],
-                                  (color[0] + color[1]) / 2 - color[2],
-                                  0,
-                                  0,
-                                  0};
+            sum[4] += FourFloats{0, 0, (color[0] + color[1] + color[2]) / 3, color[0] - color[1]};
+            sum[5] += FourFloats{(color[0] + color[1]) / 2 - color[2], 0, 0, 0};
             for (std::size_t part = 0; part < sum.size(); ++part) {
-                EightFloats total;
-                std::memcpy(&total, above + 8 * part, sizeof(total));
+                FourFloats total;
+                std::memcpy(&total, above + 4 * part, sizeof(total));
                 total += sum[part];
-                std::memcpy(out + 8 * part, &total, sizeof(total));
+                std::memcpy(out + 4 * part, &total, sizeof(total));
             }
         }
     }
