@@ -174,6 +174,27 @@ TEST_CASE("several templates find of the same proposals what each finds alone") 
     CHECK(differ);
 }
 
+TEST_CASE("a template asks at the places proposed, with its aspect, and at the better third again") {
+    const std::vector<ism::ProposedBox> proposals{{0, {10, 20, 40, 10}}, {1, {30, 5, 25, 36}}};
+    const auto places = ism::detail::asked_places(proposals, 0, std::log(4.0));
+    REQUIRE(places.size() == 2);
+    CHECK(places[0] == proposals[0].box);
+    CHECK(places[1].width == Approx(60));
+    CHECK(places[1].height == Approx(15));
+    CHECK(places[1].centre().x == Approx(proposals[1].box.centre().x));
+    CHECK(places[1].centre().y == Approx(proposals[1].box.centre().y));
+
+    const auto better = [](const std::vector<double>& scores) {
+        std::vector<ism::SearchedBox> boxes;
+        for (const double score : scores) boxes.push_back({.box = {}, .score = score});
+        return ism::detail::better_third(boxes);
+    };
+    CHECK(better({-1, 5, -3, 2}) == std::vector<std::uint8_t>{0, 1, 0, 1});
+    CHECK(better({1, 1, 1}) == std::vector<std::uint8_t>{1, 0, 0});
+    CHECK(better({-7}) == std::vector<std::uint8_t>{1});
+    CHECK(better({}).empty());
+}
+
 TEST_CASE("images of a class take turns in folds") {
     std::vector<ism::TemplateImage> images(9);
     for (std::size_t i = 0; i < 8; ++i) images[i].labels = {{std::uint32_t(i % 2), shown_box}};

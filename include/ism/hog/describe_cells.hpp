@@ -21,6 +21,7 @@ namespace detail {
 /// The sums above the lower edge of a row of cells less those above its upper, at x.
 inline void sums_between(const HogLevel& level, int x, int top, int bottom, HogSums& sums) {
     const float *upper = level.at(x, top), *lower = level.at(x, bottom);
+#pragma GCC unroll 8
     for (std::size_t part = 0; part < sums.size(); ++part) {
         FourFloats above;
         std::memcpy(&sums[part], lower + 4 * part, sizeof(above));
@@ -33,12 +34,14 @@ inline void sums_between(const HogLevel& level, int x, int top, int bottom, HogS
 /// lies in the image. Returns the squared length of its unsigned directions.
 [[nodiscard]] inline float take_means(HogSums& cell, float area, float inside) {
     const float by_area = 1 / area, by_inside = 1 / inside;
+#pragma GCC unroll 8
     for (std::size_t part = 0; part < 4; ++part) cell[part] *= by_area;
     cell[4] *= FourFloats{by_area, by_area, by_inside, by_inside};
     cell[5] *= by_inside;
     // rounding of the sums may leave a little less than nothing
     constexpr float any = -1e9f;
     const FourFloats least = {0, 0, any, any};
+#pragma GCC unroll 8
     for (std::size_t part = 0; part < 4; ++part) cell[part] = cell[part] > 0 ? cell[part] : FourFloats{};
     cell[4] = cell[4] > least ? cell[4] : least;
     const FourFloats low = cell[0] + cell[2], high = cell[1] + cell[3], squares = low * low + high * high;
@@ -59,6 +62,7 @@ inline void row_of_cells(const HogLevel& level, std::span<const int> xs, int top
     for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
         const float inside = float(column(xs[i + 1]) - column(xs[i])) * float(bottom - top);
         if (inside > 0) {
+#pragma GCC unroll 8
             for (std::size_t part = 0; part < cells[i].size(); ++part)
                 cells[i][part] = at_lines[i + 1][part] - at_lines[i][part];
             energy[i] = take_means(cells[i], float(std::max(1, xs[i + 1] - xs[i])) * tall, inside);
@@ -83,6 +87,7 @@ inline void normalise_cell(const HogSums& cell, const float (&norms)[4], float* 
     FourFloats sums[7]{};
     for (std::size_t t = 0; t < 4; ++t) {
         FourFloats n[7];
+#pragma GCC unroll 8
         for (std::size_t part = 0; part < 7; ++part) {
             n[part] = numbers[part] * norms[t];
             n[part] = n[part] < limit ? n[part] : limit;

@@ -107,6 +107,7 @@ inline void fill_level(HogLevel& level, const std::vector<float>& rgb) {
             above += hog_sums, out += hog_sums;
             const auto block = std::size_t(x) / 4, lane = std::size_t(x) % 4;
             const float strength = row.strength[block][lane], turn = row.turn[block][lane];
+#pragma GCC unroll 8
             for (std::size_t part = 0; part < sum.size(); ++part) {
                 const bool around = part == 0 && turn > float(hog_directions - 1);
                 const FourFloats away = (around ? behind_last : directions[part]) - turn;
@@ -115,6 +116,7 @@ inline void fill_level(HogLevel& level, const std::vector<float>& rgb) {
             }
             sum[4] += FourFloats{0, 0, (color[0] + color[1] + color[2]) / 3, color[0] - color[1]};
             sum[5] += FourFloats{(color[0] + color[1]) / 2 - color[2], 0, 0, 0};
+#pragma GCC unroll 8
             for (std::size_t part = 0; part < sum.size(); ++part) {
                 FourFloats total;
                 std::memcpy(&total, above + 4 * part, sizeof(total));

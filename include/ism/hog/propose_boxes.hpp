@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -65,9 +64,36 @@ inline constexpr std::size_t asked_classes = 8;
     return kept;
 }
 
+namespace detail {
+
+/// Where templates are asked: the boxes proposed, those of other classes with the aspect of this one.
+[[nodiscard]] inline std::vector<Box> asked_places(std::span<const ProposedBox> proposals,
+                                                   std::uint32_t class_index, double log_aspect) {
+    const double root = std::exp(log_aspect / 2);
+    std::vector<Box> places;
+    for (const auto& [proposing_class, box] : proposals) {
+        const double side = std::sqrt(box.area());
+        places.push_back(proposing_class == class_index ? box
+                                                        : box_around(box.centre(), side * root, side / root));
+    }
+    return places;
+}
+
+/// Which of some boxes are the better third.
+[[nodiscard]] inline std::vector<std::uint8_t> better_third(std::span<const SearchedBox> boxes) {
+    std::vector<Ranked> order;
+    for (const SearchedBox& box : boxes) order.push_back({falling(box.score), std::uint32_t(order.size())});
+    sort_ranked(order.data(), order.size());
+    std::vector<std::uint8_t> better(boxes.size(), 0);
+    for (std::size_t i = 0; i < (boxes.size() + 2) / 3; ++i) better[order[i].index] = 1;
+    return better;
+}
+
+}  // namespace detail
+
 /// @brief The boxes of a class, best first, that each of several templates finds from proposals: each is
-/// asked at its own place in three sizes, those of other classes with the aspect of this; the best that are
-/// apart are then searched.
+/// asked at its own place, those of other classes with the aspect of this, and the better third in two more
+/// sizes; the best that are apart are then searched. None has a part in what another finds.
 /// @param scorers    of the class, whose templates have grid and aspect in common
 /// @param max_count  boxes that are searched, and told
 /// @return of each template
@@ -75,29 +101,34 @@ inline constexpr std::size_t asked_classes = 8;
     std::span<const TemplateScorer* const> scorers, std::uint32_t class_index, const HogPyramid& pyramid,
     std::span<const ProposedBox> proposals, std::size_t max_count, ThreadPool& pool) {
     if (scorers.empty()) return {};
-    constexpr std::array factors{0.8, 1.1, 1.5};
+    const std::vector<Box> places =
+        detail::asked_places(proposals, class_index, scorers[0]->box_template().log_aspect);
     std::vector<CellScratch> scratch(pool.size());
-    std::vector<std::vector<SearchedBox>> boxes(scorers.size(),
-                                                std::vector<SearchedBox>(proposals.size() * factors.size()));
-    pool.for_each(proposals.size(), [&](std::size_t i, unsigned worker) {
-        const ProposedBox& proposal = proposals[i];
-        double width = proposal.box.width, height = proposal.box.height;
-        const double x = proposal.box.x + width / 2, y = proposal.box.y + height / 2;
-        if (proposal.class_index != class_index) {
-            const double side = std::sqrt(width * height),
-                         root = std::exp(scorers[0]->box_template().log_aspect / 2);
-            width = side * root, height = side / root;
-        }
-        for (std::size_t k = 0; k < factors.size(); ++k) {
-            const double w = factors[k] * width, h = factors[k] * height;
-            const Box box{x - w / 2, y - h / 2, w, h};
+    std::vector<std::vector<std::uint8_t>> asks(scorers.size(), std::vector<std::uint8_t>(places.size(), 1));
+    // in one size, by scorer and place, for those who ask
+    const auto asked = [&](double size) {
+        std::vector<std::vector<SearchedBox>> boxes(scorers.size(), std::vector<SearchedBox>(places.size()));
+        pool.for_each(places.size(), [&](std::size_t i, unsigned worker) {
+            if (std::none_of(asks.begin(), asks.end(),
+                             [&](const auto& of_scorer) { return of_scorer[i] != 0; }))
+                return;
+            const Box box = box_around(places[i].centre(), size * places[i].width, size * places[i].height);
             const std::span<const float> cells = scorers[0]->describe(pyramid, box, scratch[worker]);
             for (std::size_t s = 0; s < scorers.size(); ++s) {
                 const auto score = scorers[s]->score(cells, box);
-                boxes[s][i * factors.size() + k] = {box, score.value, score.mirrored};
+                boxes[s][i] = {box, score.value, score.mirrored};
             }
-        }
-    });
+        });
+        return boxes;
+    };
+    std::vector<std::vector<SearchedBox>> boxes = asked(1.1);
+    for (std::size_t s = 0; s < scorers.size(); ++s) asks[s] = detail::better_third(boxes[s]);
+    for (const double size : {0.8, 1.5}) {
+        const auto more = asked(size);
+        for (std::size_t s = 0; s < scorers.size(); ++s)
+            for (std::size_t i = 0; i < places.size(); ++i)
+                if (asks[s][i] != 0) boxes[s].push_back(more[s][i]);
+    }
     for (std::size_t s = 0; s < scorers.size(); ++s) {
         std::vector<SearchedBox> starts = best_apart(std::move(boxes[s]), max_count);
         pool.for_each(starts.size(), [&](std::size_t i, unsigned worker) {
