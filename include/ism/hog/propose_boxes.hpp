@@ -115,6 +115,7 @@ namespace detail {
             const Box box = box_around(places[i].centre(), size * places[i].width, size * places[i].height);
             const std::span<const float> cells = scorers[0]->describe(pyramid, box, scratch[worker]);
             for (std::size_t s = 0; s < scorers.size(); ++s) {
+                if (asks[s][i] == 0) continue;
                 const auto score = scorers[s]->score(cells, box);
                 boxes[s][i] = {box, score.value, score.mirrored};
             }
