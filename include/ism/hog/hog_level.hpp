@@ -34,7 +34,8 @@ struct HogLevel {
 
 namespace detail {
 
-/// As many as any processor works on at once: of longer vectors GCC compares number after number.
+/// No longer, since GCC compares number after number where a vector has no instruction of its own, and
+/// without flags x86 has none for eight.
 using FourFloats = Vector<float, 4>;
 /// The sums of a place: directions 0 … 7, their opposites 9 … 16, and then 8, 17, three colours and zeros.
 using HogSums = std::array<FourFloats, hog_sums / 4>;
