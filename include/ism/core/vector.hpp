@@ -20,6 +20,13 @@ namespace ism::detail {
 template <class T, std::size_t N>
 using Vector [[gnu::vector_size(N * sizeof(T))]] = T;
 
+/// Makes the compiler forget what it knows of a value. g++ 12 has an instruction for a < b ? a : b, but where
+/// b is a constant it compares, masks both and joins them.
+template <class T, std::size_t N>
+ISM_DETAIL_INLINE void forget(Vector<T, N>& value) {
+    asm("" : "+m"(value));
+}
+
 /// The sum of all lanes in the order of Lanes::sum(): the upper half onto the lower, again and again.
 template <class T, std::size_t N>
 [[nodiscard]] ISM_DETAIL_INLINE T sum_of_lanes(const Vector<T, N>& lanes) {

@@ -74,7 +74,8 @@ inline void row_of_cells(const HogLevel& level, std::span<const int> xs, int top
 
 /// The numbers of a cell, by one over the lengths of the four blocks of 2 × 2 cells that it belongs to.
 inline void normalise_cell(const HogSums& cell, const float (&norms)[4], float* out) {
-    const FourFloats limit = FourFloats{} + 0.2f;
+    FourFloats limit = FourFloats{} + 0.2f;
+    forget<float, 4>(limit);
     const float last = cell[4][0], opposite = cell[4][1];
     // directions, their opposites, both together, and the ends of the three rows
     const FourFloats numbers[] = {cell[0],
