@@ -59,7 +59,7 @@ namespace fs = std::filesystem;
     for (const ism::Rgb c : before.pixels())
         colors.insert(colors.end(), {float(c.r), float(c.g), float(c.b)});
     ism::RgbImage after(width, height);
-    const auto numbers = ism::resize_area(colors, before.width(), before.height(), 3, width, height);
+    const auto numbers = ism::resize_area<3>(colors, before.width(), before.height(), width, height);
     const auto byte = [&](std::size_t i) {
         return std::uint8_t(std::lround(std::clamp(numbers[i], 0.f, 255.f)));
     };

@@ -212,8 +212,8 @@ TEST_CASE("an image that shrinks keeps its mean, one of a single colour its colo
         for (const float x : v) sum += x;
         return sum / double(v.size());
     };
-    CHECK(mean(ism::resize_area(image, 37, 23, 3, 10, 7)) == Approx(mean(image)).epsilon(1e-6));
-    CHECK(ism::resize_area(image, 37, 23, 3, 37, 23) == image);
-    for (const float v : ism::resize_area(std::vector<float>(37 * 23 * 3, 0.25f), 37, 23, 3, 80, 11))
+    CHECK(mean(ism::resize_area<3>(image, 37, 23, 10, 7)) == Approx(mean(image)).epsilon(1e-6));
+    CHECK(ism::resize_area<3>(image, 37, 23, 37, 23) == image);
+    for (const float v : ism::resize_area<3>(std::vector<float>(37 * 23 * 3, 0.25f), 37, 23, 80, 11))
         CHECK(v == Approx(0.25));
 }

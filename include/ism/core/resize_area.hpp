@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ism/config.hpp"
@@ -43,27 +44,60 @@ struct LineWeights {
 
 }  // namespace detail
 
-/// @brief An image of `channels` numbers a pixel in another size: where it shrinks each pixel is the mean of
-/// what it covers, where it grows it is interpolated linearly.
-[[nodiscard]] inline std::vector<float> resize_area(const std::vector<float>& image, int width, int height,
-                                                    int channels, int new_width, int new_height) {
-    if (width == new_width && height == new_height) return image;
-    const detail::LineWeights across(width, new_width), down(height, new_height);
-    const std::size_t n = std::size_t(channels), old_row = std::size_t(width) * n,
-                      row = std::size_t(new_width) * n;
-    std::vector<float> result(row * std::size_t(new_height)), line(old_row);
-    for (std::size_t y = 0; y < std::size_t(new_height); ++y) {
-        std::fill(line.begin(), line.end(), 0.0f);
-        for (std::uint32_t k = down.offset[y]; k < down.offset[y + 1]; ++k) {
-            const float* from = image.data() + std::size_t(down.first[y] + k - down.offset[y]) * old_row;
-            for (std::size_t i = 0; i < old_row; ++i) line[i] += down.weight[k] * from[i];
+/// @brief An image of so many numbers a pixel in another size, row after row: where it shrinks each pixel is
+/// the mean of what it covers, where it grows it is interpolated linearly.
+template <std::size_t channels>
+requires(channels > 0) class ResizedRows {
+public:
+    /// @param image  width · height · channels numbers; they have to stay as long as this
+    ResizedRows(std::span<const float> image, int width, int height, int new_width, int new_height)
+        : image_(image),
+          width_(std::size_t(width)),
+          new_width_(std::size_t(new_width)),
+          same_(width == new_width && height == new_height),
+          across_(width, new_width),
+          down_(height, new_height),
+          line_(width_ * channels) {}
+
+    /// @brief Row y of the new size.
+    /// @param out  new_width · channels numbers
+    void write(std::size_t y, std::span<float> out) {
+        const auto old_row = [&](std::size_t at) { return image_.subspan(at * line_.size(), line_.size()); };
+        if (same_) {
+            std::copy_n(old_row(y).begin(), line_.size(), out.begin());
+            return;
         }
-        for (std::size_t x = 0; x < std::size_t(new_width); ++x)
-            for (std::uint32_t k = across.offset[x]; k < across.offset[x + 1]; ++k)
-                for (std::size_t c = 0; c < n; ++c)
-                    result[y * row + x * n + c] +=
-                        across.weight[k] * line[(across.first[x] + k - across.offset[x]) * n + c];
+        std::fill(line_.begin(), line_.end(), 0.0f);
+        for (std::uint32_t k = down_.offset[y]; k < down_.offset[y + 1]; ++k) {
+            const std::span<const float> from = old_row(down_.first[y] + k - down_.offset[y]);
+            for (std::size_t i = 0; i < line_.size(); ++i) line_[i] += down_.weight[k] * from[i];
+        }
+        for (std::size_t x = 0; x < new_width_; ++x) {
+            const float* from = line_.data() + across_.first[x] * channels;
+            float sums[channels] = {};
+            for (std::uint32_t k = across_.offset[x]; k < across_.offset[x + 1]; ++k, from += channels)
+                for (std::size_t c = 0; c < channels; ++c) sums[c] += across_.weight[k] * from[c];
+            std::copy_n(sums, channels, out.data() + x * channels);
+        }
     }
+
+private:
+    std::span<const float> image_;
+    std::size_t width_, new_width_;
+    bool same_;
+    detail::LineWeights across_, down_;
+    std::vector<float> line_;  // of the old width
+};
+
+/// @brief All rows of ResizedRows.
+template <std::size_t channels>
+[[nodiscard]] std::vector<float> resize_area(std::span<const float> image, int width, int height,
+                                             int new_width, int new_height) {
+    const std::size_t row = std::size_t(new_width) * channels;
+    std::vector<float> result(row * std::size_t(new_height));
+    ResizedRows<channels> rows(image, width, height, new_width, new_height);
+    for (std::size_t y = 0; y < std::size_t(new_height); ++y)
+        rows.write(y, std::span(result).subspan(y * row, row));
     return result;
 }
 

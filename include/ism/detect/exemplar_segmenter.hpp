@@ -85,7 +85,7 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     const int width = std::max(2, int(std::lround(region.width * zoom))),
               height = std::max(2, int(std::lround(region.height * zoom)));
     const std::vector<float> rgb =
-        resize_area(region_colors(color, region), region.width, region.height, 3, width, height);
+        resize_area<3>(region_colors(color, region), region.width, region.height, width, height);
     const ColorBins bins(rgb);
     const std::vector<float> class_odds =
         figure_color_odds(model.figure_colors_of(hypothesis.class_index), rgb);
@@ -145,8 +145,7 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     const int radius = std::max(1, int(std::lround(filter_radius * std::sqrt(box.area()) * zoom)));
     const GuidedFit fit = guided_fit(guide, figure, radius, filter_epsilon);
     const auto enlarged = [&](const GrayImage& image) {
-        return resize_area({image.pixels().begin(), image.pixels().end()}, width, height, 1, region.width,
-                           region.height);
+        return resize_area<1>(image.pixels(), width, height, region.width, region.height);
     };
     const std::vector<float> red = enlarged(fit.slope[0]), green = enlarged(fit.slope[1]),
                              blue = enlarged(fit.slope[2]), offset = enlarged(fit.offset);

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "ism/core/resize_area.hpp"
 #include "ism/core/vector.hpp"
 
 namespace ism {
@@ -54,66 +55,89 @@ inline void take_directions(const FourFloats& x, const FourFloats& y, FourFloats
 
 /// The gradients of a row of pixels, each that of the colour where it is strongest, four pixels side by side.
 struct HogRow {
-    std::vector<FourFloats> x, y, strength, turn;
+    std::vector<FourFloats> sq_strength, turn;
 
-    explicit HogRow(int width)
-        : x((std::size_t(width) + 3) / 4), y(x.size()), strength(x.size()), turn(x.size()) {}
+    explicit HogRow(int width) : sq_strength((std::size_t(width) + 3) / 4), turn(sq_strength.size()) {}
 
-    /// Those of row `at` of an image of three numbers a pixel.
-    void fill(const std::vector<float>& rgb, int width, int height, int at) {
-        const auto row_at = [&](int r) {
-            return rgb.data() + std::size_t(std::clamp(r, 0, height - 1)) * std::size_t(width) * 3;
+    /// From its own colours and those of the rows above and below, four numbers a pixel.
+    void fill(std::span<const float> above, std::span<const float> row, std::span<const float> below) {
+        const std::size_t last = row.size() / 4 - 1;
+        const auto subtract = [](const float* right, const float* left, FourFloats& result) {
+            FourFloats subtracted;
+            std::memcpy(&result, right, sizeof(result));
+            std::memcpy(&subtracted, left, sizeof(subtracted));
+            result -= subtracted;
         };
-        const float *row = row_at(at), *above = row_at(at - 1), *below = row_at(at + 1);
-        for (int i = 0; i < width; ++i) {
-            const float *left = row + std::max(0, i - 1) * 3, *right = row + std::min(width - 1, i + 1) * 3;
-            float best_x = 0, best_y = 0, most = -1;
-            for (int k = 0; k < 3; ++k) {
-                const float gx = right[k] - left[k], gy = below[i * 3 + k] - above[i * 3 + k];
-                const float sq = gx * gx + gy * gy;
-                const bool stronger = sq > most;
-                most = stronger ? sq : most, best_x = stronger ? gx : best_x, best_y = stronger ? gy : best_y;
+        for (std::size_t block = 0; block < turn.size(); ++block) {
+            FourFloats across[4], along[4];  // of each pixel, by colours
+#pragma GCC unroll 4
+            for (std::size_t lane = 0; lane < 4; ++lane) {
+                const std::size_t i = std::min(4 * block + lane, last);
+                const std::size_t left = i > 0 ? i - 1 : i, right = std::min(i + 1, last);
+                subtract(row.data() + 4 * right, row.data() + 4 * left, across[lane]);
+                subtract(below.data() + 4 * i, above.data() + 4 * i, along[lane]);
             }
-            const auto block = std::size_t(i) / 4, lane = std::size_t(i) % 4;
-            x[block][lane] = best_x, y[block][lane] = best_y, strength[block][lane] = std::sqrt(most);
+            FourFloats x{}, y{}, most = FourFloats{} - 1;
+#pragma GCC unroll 3
+            for (std::size_t k = 0; k < 3; ++k) {
+                const FourFloats gx = {across[0][k], across[1][k], across[2][k], across[3][k]};
+                const FourFloats gy = {along[0][k], along[1][k], along[2][k], along[3][k]};
+                const FourFloats sq = gx * gx + gy * gy;
+                const auto stronger = sq > most;
+                x = stronger ? gx : x, y = stronger ? gy : y, most = stronger ? sq : most;
+            }
+            sq_strength[block] = most;
+            take_directions(x, y, turn[block]);
         }
-        for (std::size_t block = 0; block < x.size(); ++block)
-            take_directions(x[block], y[block], turn[block]);
     }
 };
 
-/// One level, whose size is set and whose sums are uninitialised, from its colours, three numbers a pixel.
-inline void fill_level(HogLevel& level, const std::vector<float>& rgb) {
-    // Each direction gets as much as a gradient is near it; behind the last comes the first.
-    constexpr float none = 99;
-    static constexpr HogSums directions = {{{0, 1, 2, 3},
-                                            {4, 5, 6, 7},
-                                            {9, 10, 11, 12},
-                                            {13, 14, 15, 16},
-                                            {8, 17, none, none},
-                                            {none, none, none, none}}};
-    static constexpr FourFloats behind_last = {18, 1, 2, 3};
-    const int width = level.width, height = level.height;
-    const std::size_t row_numbers = std::size_t(width + 1) * hog_sums;
+/// Where direction d lies among the sums of a place.
+[[nodiscard]] constexpr std::size_t place_of_direction(std::size_t d) {
+    return d == 8 ? 16 : d < 8 || d == 17 ? d : d - 1;
+}
+
+/// A one at the place of each direction, then of the first two again.
+struct DirectionOnes {
+    alignas(16) float of[hog_directions + 2][20] = {};
+    constexpr DirectionOnes() {
+        for (std::size_t d = 0; d < hog_directions + 2; ++d)
+            of[d][place_of_direction(d % hog_directions)] = 1;
+    }
+};
+
+/// One level, whose size is set and whose sums are uninitialised, from its colours: red, green, blue and a
+/// number that is not used.
+inline void fill_level(HogLevel& level, ResizedRows<4>& image) {
+    static constexpr DirectionOnes ones;
+    const auto width = std::size_t(level.width), height = std::size_t(level.height);
+    const std::size_t row_numbers = (width + 1) * hog_sums;
     std::fill_n(level.sums.begin(), row_numbers, 0.0f);
-    HogRow row(width);
-    for (int y = 0; y < height; ++y) {
-        row.fill(rgb, width, height, y);
-        const float* color = rgb.data() + std::size_t(y) * std::size_t(width) * 3;
-        const float* above = level.sums.data() + std::size_t(y) * row_numbers;
-        float* out = level.sums.data() + std::size_t(y + 1) * row_numbers;
+    std::array<std::vector<float>, 3> colors;  // of row y at y % 3
+    for (auto& of_row : colors) of_row.resize(4 * width);
+    image.write(0, colors[0]);
+    HogRow row(level.width);
+    for (std::size_t y = 0; y < height; ++y) {
+        if (y + 1 < height) image.write(y + 1, colors[(y + 1) % 3]);
+        row.fill(colors[(y > 0 ? y - 1 : y) % 3], colors[y % 3], colors[std::min(y + 1, height - 1) % 3]);
+        const float* color = colors[y % 3].data();
+        const float* above = level.sums.data() + y * row_numbers;
+        float* out = level.sums.data() + (y + 1) * row_numbers;
         std::fill_n(out, hog_sums, 0.0f);
         HogSums sum{};
-        for (int x = 0; x < width; ++x, color += 3) {
+        for (std::size_t x = 0; x < width; ++x, color += 4) {
             above += hog_sums, out += hog_sums;
-            const auto block = std::size_t(x) / 4, lane = std::size_t(x) % 4;
-            const float strength = row.strength[block][lane], turn = row.turn[block][lane];
+            // each direction gets as much as a gradient is near it
+            const float strength = std::sqrt(row.sq_strength[x / 4][x % 4]), turn = row.turn[x / 4][x % 4];
+            const int direction = int(turn);
+            const float second = strength * (turn - float(direction)), first = strength - second;
+            const float *to_first = ones.of[direction], *to_second = ones.of[direction + 1];
 #pragma GCC unroll 8
-            for (std::size_t part = 0; part < sum.size(); ++part) {
-                const bool around = part == 0 && turn > float(hog_directions - 1);
-                const FourFloats away = (around ? behind_last : directions[part]) - turn;
-                const FourFloats near = 1.0f - (away > 0 ? away : -away);
-                sum[part] += strength * (near > 0 ? near : FourFloats{});
+            for (std::size_t part = 0; part < 5; ++part) {
+                FourFloats one, other;
+                std::memcpy(&one, to_first + 4 * part, sizeof(one));
+                std::memcpy(&other, to_second + 4 * part, sizeof(other));
+                sum[part] += first * one + second * other;
             }
             sum[4] += FourFloats{0, 0, (color[0] + color[1] + color[2]) / 3, color[0] - color[1]};
             sum[5] += FourFloats{(color[0] + color[1]) / 2 - color[2], 0, 0, 0};

@@ -30,31 +30,29 @@ public:
     void assign(ImageView<const Rgb> color, int first, ThreadPool& pool) {
         first_ = std::clamp(first, finest, coarsest), width_ = color.width(), height_ = color.height();
         while (first_<coarsest&& double(width_) * height_ * std::exp2(-first_)> max_pixels) ++first_;
-        image_.clear();
-        image_.reserve(std::size_t(width_) * std::size_t(height_) * 3);
+        // the image, and the last in half its size again and again: a level is made from one of at most twice
+        // its own size
+        auto& image = images_[0];
+        image.clear();
+        image.reserve(std::size_t(width_) * std::size_t(height_) * 4);
         for (int y = 0; y < height_; ++y)
             for (const Rgb c : color.row(y))
-                image_.insert(image_.end(), {c.r / 255.0f, c.g / 255.0f, c.b / 255.0f});
-        std::vector<std::vector<float>> images;
+                image.insert(image.end(), {c.r / 255.0f, c.g / 255.0f, c.b / 255.0f, 0.0f});
         std::size_t numbers = 0;
-        const auto level = [&](std::size_t i) -> HogLevel& {
-            return levels_[std::size_t(first_ - finest) + i];
-        };
-        for (int k = first_; k <= coarsest; ++k) {
-            const double step = std::exp2(k / 2.0);
-            const int w = std::max(2, int(std::lround(width_ / step))),
-                      h = std::max(2, int(std::lround(height_ / step)));
+        last_ = first_ - 1;
+        for (int k = std::min(first_, 2); k <= coarsest; ++k) {
+            const auto [w, h] = size_at(k);
             if (k > std::max(0, first_) && std::min(w, h) < 12) break;
-            const std::size_t i = images.size();
-            if (i >= 2 && k >= 2)
-                images.push_back(
-                    resize_area(images[i - 2], level(i - 2).width, level(i - 2).height, 3, w, h));
-            else
-                images.push_back(resize_area(image_, width_, height_, 3, w, h));
-            level(i).width = w, level(i).height = h;
+            if (k >= 2 && k % 2 == 0) {
+                const auto [from_w, from_h] = size_at(k - 2);
+                images_[std::size_t(k / 2)] =
+                    resize_area<4>(images_[std::size_t(k / 2 - 1)], from_w, from_h, w, h);
+            }
+            if (k < first_) continue;
+            level(k).width = w, level(k).height = h;
             numbers += HogLevel::count(w, h);
+            last_ = k;
         }
-        last_ = first_ + int(images.size()) - 1;
         if (memory_size_ < numbers) {
             memory_.reset(), memory_size_ = 0;  // given back before there is more
             const std::size_t size =
@@ -63,13 +61,18 @@ public:
             memory_size_ = size;
         }
         std::size_t begin = 0;
-        for (std::size_t i = 0; i < images.size(); ++i) {
-            const std::size_t count = HogLevel::count(level(i).width, level(i).height);
-            level(i).sums = {memory_.get() + begin, count};
+        for (int k = first_; k <= last_; ++k) {
+            const std::size_t count = HogLevel::count(level(k).width, level(k).height);
+            level(k).sums = {memory_.get() + begin, count};
             begin += count;
         }
-        pool.for_each(images.size(),
-                      [&](std::size_t i, unsigned) { detail::fill_level(level(i), images[i]); });
+        pool.for_each(std::size_t(last_ - first_ + 1), [&](std::size_t i, unsigned) {
+            const int k = first_ + int(i), from = std::max(0, k / 2);
+            const auto [w, h] = size_at(2 * from);
+            HogLevel& filled = level(k);
+            ResizedRows<4> rows(images_[std::size_t(from)], w, h, filled.width, filled.height);
+            detail::fill_level(filled, rows);
+        });
     }
 
     [[nodiscard]] int width() const { return width_; }
@@ -81,9 +84,16 @@ public:
     }
 
 private:
+    [[nodiscard]] HogLevel& level(int k) { return levels_[std::size_t(k - finest)]; }
+    /// Width and height of level k.
+    [[nodiscard]] std::array<int, 2> size_at(int k) const {
+        const double step = std::exp2(k / 2.0);
+        return {std::max(2, int(std::lround(width_ / step))), std::max(2, int(std::lround(height_ / step)))};
+    }
+
     int first_ = 0, last_ = 0, width_ = 0, height_ = 0;
-    std::vector<float> image_;         // its colours, 0 … 1
-    std::unique_ptr<float[]> memory_;  // the sums of all levels
+    std::array<std::vector<float>, coarsest / 2 + 1> images_;  // levels 0, 2, 4 …: red, green, blue, nothing
+    std::unique_ptr<float[]> memory_;                          // the sums of all levels
     std::size_t memory_size_ = 0;
     std::array<HogLevel, coarsest - finest + 1> levels_;  // those from first_ to last_
 };

@@ -35,7 +35,7 @@ struct ExemplarView {
     const auto side = [&](int px) { return int(std::clamp(std::lround(px * zoom), 16L, 2000L)); };
     const int width = side(region.width), height = side(region.height);
     const std::vector<float> numbers =
-        resize_area(region_colors(color, region), region.width, region.height, 3, width, height);
+        resize_area<3>(region_colors(color, region), region.width, region.height, width, height);
     RgbImage patch(width, height);
     for (std::size_t i = 0; i < patch.pixels().size(); ++i)
         patch.pixels()[i] = {std::uint8_t(numbers[3 * i] + 0.5f), std::uint8_t(numbers[3 * i + 1] + 0.5f),

@@ -38,7 +38,7 @@ inline void check(const ReportPictureOptions& options) {
             numbers.insert(numbers.end(), {float(pixel.r), float(pixel.g), float(pixel.b)});
     const auto side = [&](int px) { return std::max(1, int(std::lround(zoom * px))); };
     RgbImage small(side(image.width()), side(image.height()));
-    numbers = resize_area(numbers, image.width(), image.height(), 3, small.width(), small.height());
+    numbers = resize_area<3>(numbers, image.width(), image.height(), small.width(), small.height());
     for (std::size_t i = 0; i < small.pixels().size(); ++i)
         small.pixels()[i] = {std::uint8_t(numbers[3 * i] + 0.5f), std::uint8_t(numbers[3 * i + 1] + 0.5f),
                              std::uint8_t(numbers[3 * i + 2] + 0.5f)};

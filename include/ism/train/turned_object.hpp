@@ -32,7 +32,7 @@ public:
                   rows = std::max(1, int(std::lround(region.height * factor)));
         across_ = double(columns) / region.width, down_ = double(rows) / region.height;
         const std::vector<float> numbers =
-            resize_area(region_colors(image, region), region.width, region.height, 3, columns, rows);
+            resize_area<3>(region_colors(image, region), region.width, region.height, columns, rows);
         for (std::size_t k = 0; k < 3; ++k) {
             planes_[k] = GrayImage(columns, rows);
             const auto pixels = planes_[k].pixels();
