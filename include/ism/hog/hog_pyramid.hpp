@@ -19,7 +19,7 @@ namespace ism {
 /// @brief Gradients and colours of an image at resolutions half an octave apart, for any box of any size.
 class HogPyramid {
 public:
-    static constexpr int finest = -2, coarsest = 11;
+    static constexpr int finest = -1, coarsest = 11;
     static constexpr double max_pixels = 2e6;  ///< of a level: 200 MB of sums; larger images begin coarser
 
     HogPyramid() = default;
