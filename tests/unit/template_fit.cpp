@@ -101,6 +101,46 @@ TEST_CASE("templates that are fitted without a fold know nothing of its pixels")
     }
 }
 
+TEST_CASE("what is learnt is the mean of all fits, each on the side that is more like the first") {
+    const Lined set(12, fold_count);
+    const auto fitter = set.fitted();
+    const std::vector<ism::BoxTemplate> means = fitter.mean_templates();
+    REQUIRE(means.size() == 2);
+    const auto dot = [](const std::vector<float>& a, const std::vector<float>& b) {
+        double sum = 0;
+        for (std::size_t k = 0; k < a.size(); ++k) sum += double(a[k]) * double(b[k]);
+        return sum;
+    };
+    for (std::size_t c = 0; c < 2; ++c) {
+        const ism::BoxTemplate& first = fitter.fits()[0].templates[c];
+        std::vector<double> expected(first.weights.size(), 0);
+        double bias = 0;
+        for (const auto& fit : fitter.fits()) {
+            std::vector<float> weights = fit.templates[c].weights;
+            const std::vector<float> mirrored = ism::mirrored_cells(weights, first.grid);
+            if (dot(first.weights, mirrored) > dot(first.weights, weights)) weights = mirrored;
+            for (std::size_t k = 0; k < weights.size(); ++k) expected[k] += double(weights[k]) / 4;
+            bias += double(fit.templates[c].bias) / 4;
+        }
+        CHECK(means[c].grid == first.grid);
+        CHECK(double(means[c].bias) == Approx(bias));
+        double worst = 0;
+        for (std::size_t k = 0; k < expected.size(); ++k)
+            worst = std::max(worst, std::abs(double(means[c].weights[k]) - expected[k]));
+        CHECK(worst < 1e-6);
+        CHECK(means[c].weights != first.weights);
+    }
+}
+
+TEST_CASE("the classifier of patches that is learnt is the mean of those of all judges") {
+    std::vector<ism::detail::FoldJudges> judges(2);
+    judges[0].patches.weights = {{1, 2}, {3, 4}}, judges[0].patches.bias = {5, 6};
+    judges[1].patches.weights = {{3, 0}, {-3, 6}}, judges[1].patches.bias = {-1, 8};
+    const ism::PatchClassifier mean = ism::detail::mean_patches(judges);
+    CHECK(mean.weights == std::vector<std::vector<float>>{{2, 1}, {0, 5}});
+    CHECK(mean.bias == std::vector<float>{2, 7});
+}
+
 TEST_CASE("a class learns nothing from an image that it is not asked about") {
     Lined set(6, fold_count), changed(6, fold_count);
     constexpr std::size_t image = 4;  // of class 0

@@ -25,6 +25,7 @@
 #include "ism/model/patch_classifier.hpp"
 #include "ism/train/fit_box_classifier.hpp"
 #include "ism/train/fit_calibration.hpp"
+#include "ism/train/linear_svm.hpp"
 #include "ism/train/template_examples.hpp"
 #include "ism/train/training_boxes.hpp"
 
@@ -74,6 +75,21 @@ struct FoldJudges {
     PatchClassifier patches = {};
     std::vector<FigureColors> colors = {};  ///< of each class
 };
+
+/// The classifiers of patches that judges have on the mean, as of templates
+/// (TemplateFitter::mean_templates()).
+[[nodiscard]] inline PatchClassifier mean_patches(std::span<const FoldJudges> judges) {
+    PatchClassifier mean = judges[0].patches;
+    const float share = 1 / float(judges.size());
+    for (std::size_t c = 0; c < mean.bias.size(); ++c) {
+        std::fill(mean.weights[c].begin(), mean.weights[c].end(), 0.0f), mean.bias[c] = 0;
+        for (const FoldJudges& judge : judges) {
+            add_share(share, judge.patches.weights[c], mean.weights[c]);
+            mean.bias[c] += share * judge.patches.bias[c];
+        }
+    }
+    return mean;
+}
 
 /// What judges say of the boxes of an image that they have not seen, of those that overlap the best alone.
 /// What shows an object of another class is left out: that it is none of this one its rivals tell

@@ -180,6 +180,26 @@ public:
             fits_[f].scorers = {fits_[f].templates.begin(), fits_[f].templates.end()};
     }
 
+    /// The templates that all fits have on the mean: what one sees in too few examples the others do not
+    /// (bagging: Breiman 1996). Of two sides each shows the one that is more like the first.
+    [[nodiscard]] std::vector<BoxTemplate> mean_templates() const {
+        std::vector<BoxTemplate> means = fits_[0].templates;
+        const float share = 1 / float(fits_.size());
+        for (std::size_t c = 0; c < means.size(); ++c) {
+            const BoxTemplate& first = fits_[0].templates[c];
+            BoxTemplate& mean = means[c];
+            std::fill(mean.weights.begin(), mean.weights.end(), 0.0f), mean.bias = 0;
+            for (const TemplateFit& fit : fits_) {
+                const std::vector<float>& plain = fit.templates[c].weights;
+                const std::vector<float> mirrored = mirrored_cells(plain, first.grid);
+                const bool turned = ahead_mirrored(first.weights, plain.data(), mirrored.data()) > 0;
+                add_share(share, turned ? mirrored : plain, mean.weights);
+                mean.bias += share * fit.templates[c].bias;
+            }
+        }
+        return means;
+    }
+
 private:
     // so that the rows of all classes stay below a gigabyte
     [[nodiscard]] std::size_t negatives_of_image(std::size_t class_index) const {

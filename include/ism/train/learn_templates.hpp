@@ -196,8 +196,9 @@ struct FittedJudges {
             judges[f].patches = patches_without(f);
         }
     }
+    judges[0].patches = patches_without(0);
     FittedJudges fitted{
-        .templates = fits[0].templates, .patches = patches_without(0), .colors = judges[0].colors};
+        .templates = fitter.mean_templates(), .patches = mean_patches(judges), .colors = judges[0].colors};
     for (const std::vector<JudgedBox>& boxes : judged) append(fitted.judged, boxes);
     return fitted;
 }

@@ -23,6 +23,15 @@ struct LinearClassifier {
     double bias = 0;
 };
 
+namespace detail {
+
+/// Adds a share of some weights to others.
+inline void add_share(float share, std::span<const float> weights, std::span<float> sum) {
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += share * weights[k];
+}
+
+}  // namespace detail
+
 /// @brief Where the `dimension` numbers of each example begin that lie one after another.
 [[nodiscard]] inline std::vector<const float*> row_starts(std::span<const float> rows,
                                                           std::size_t dimension) {
