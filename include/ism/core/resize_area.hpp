@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "ism/config.hpp"
+#include "ism/core/callable.hpp"
 
 namespace ism {
 
@@ -44,35 +45,41 @@ struct LineWeights {
 
 }  // namespace detail
 
+/// @brief The rows of an image whose numbers lie one after another.
+struct RowsInMemory {
+    std::span<const float> image;
+    std::size_t row_numbers = 0;
+    [[nodiscard]] std::span<const float> operator()(std::size_t y) const {
+        return image.subspan(y * row_numbers, row_numbers);
+    }
+};
+
 /// @brief An image of so many numbers a pixel in another size, row after row: where it shrinks each pixel is
 /// the mean of what it covers, where it grows it is interpolated linearly.
-template <std::size_t channels>
+/// @tparam Rows  tells the width · channels numbers of a row of the image; they stay until the next is told
+template <std::size_t channels, Callable<std::size_t> Rows = RowsInMemory>
 requires(channels > 0) class ResizedRows {
 public:
-    /// @param image  width · height · channels numbers; they have to stay as long as this
-    ResizedRows(std::span<const float> image, int width, int height, int new_width, int new_height)
-        : image_(image),
-          width_(std::size_t(width)),
-          new_width_(std::size_t(new_width)),
+    ResizedRows(Rows rows, int width, int height, int new_width, int new_height)
+        : rows_(std::move(rows)),
           same_(width == new_width && height == new_height),
           across_(width, new_width),
           down_(height, new_height),
-          line_(width_ * channels) {}
+          line_(std::size_t(width) * channels) {}
 
     /// @brief Row y of the new size.
     /// @param out  new_width · channels numbers
     void write(std::size_t y, std::span<float> out) {
-        const auto old_row = [&](std::size_t at) { return image_.subspan(at * line_.size(), line_.size()); };
         if (same_) {
-            std::copy_n(old_row(y).begin(), line_.size(), out.begin());
+            std::copy_n(rows_(y).begin(), line_.size(), out.begin());
             return;
         }
         std::fill(line_.begin(), line_.end(), 0.0f);
         for (std::uint32_t k = down_.offset[y]; k < down_.offset[y + 1]; ++k) {
-            const std::span<const float> from = old_row(down_.first[y] + k - down_.offset[y]);
+            const std::span<const float> from = rows_(down_.first[y] + k - down_.offset[y]);
             for (std::size_t i = 0; i < line_.size(); ++i) line_[i] += down_.weight[k] * from[i];
         }
-        for (std::size_t x = 0; x < new_width_; ++x) {
+        for (std::size_t x = 0; x < across_.first.size(); ++x) {
             const float* from = line_.data() + across_.first[x] * channels;
             float sums[channels] = {};
             for (std::uint32_t k = across_.offset[x]; k < across_.offset[x + 1]; ++k, from += channels)
@@ -82,23 +89,30 @@ public:
     }
 
 private:
-    std::span<const float> image_;
-    std::size_t width_, new_width_;
+    Rows rows_;
     bool same_;
     detail::LineWeights across_, down_;
     std::vector<float> line_;  // of the old width
 };
 
 /// @brief All rows of ResizedRows.
+template <std::size_t channels, Callable<std::size_t> Rows>
+[[nodiscard]] std::vector<float> resize_area(Rows rows, int width, int height, int new_width,
+                                             int new_height) {
+    const std::size_t row = std::size_t(new_width) * channels;
+    std::vector<float> result(row * std::size_t(new_height));
+    ResizedRows<channels, Rows> resized(std::move(rows), width, height, new_width, new_height);
+    for (std::size_t y = 0; y < std::size_t(new_height); ++y)
+        resized.write(y, std::span(result).subspan(y * row, row));
+    return result;
+}
+
+/// @brief The same of an image whose width · height · channels numbers lie one after another.
 template <std::size_t channels>
 [[nodiscard]] std::vector<float> resize_area(std::span<const float> image, int width, int height,
                                              int new_width, int new_height) {
-    const std::size_t row = std::size_t(new_width) * channels;
-    std::vector<float> result(row * std::size_t(new_height));
-    ResizedRows<channels> rows(image, width, height, new_width, new_height);
-    for (std::size_t y = 0; y < std::size_t(new_height); ++y)
-        rows.write(y, std::span(result).subspan(y * row, row));
-    return result;
+    return resize_area<channels>(RowsInMemory{image, std::size_t(width) * channels}, width, height, new_width,
+                                 new_height);
 }
 
 }  // namespace ism

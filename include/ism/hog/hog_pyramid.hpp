@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "ism/core/image.hpp"
@@ -23,32 +24,37 @@ public:
     static constexpr double max_pixels = 2e6;  ///< of a level: 200 MB of sums; larger images begin coarser
 
     HogPyramid() = default;
-    /// @param first  the finest level that is needed: 0 is the image's own resolution, −2 twice that
+    /// @param first  the finest level that is needed: 0 is the image's own resolution, −1 half an octave
+    /// finer
     HogPyramid(ImageView<const Rgb> color, int first, ThreadPool& pool) { assign(color, first, pool); }
 
     /// @brief Describes another image, in the memory of the last.
     void assign(ImageView<const Rgb> color, int first, ThreadPool& pool) {
         first_ = std::clamp(first, finest, coarsest), width_ = color.width(), height_ = color.height();
         while (first_<coarsest&& double(width_) * height_ * std::exp2(-first_)> max_pixels) ++first_;
-        // the image, and the last in half its size again and again: a level is made from one of at most twice
-        // its own size
-        auto& image = images_[0];
-        image.clear();
-        image.reserve(std::size_t(width_) * std::size_t(height_) * 4);
-        for (int y = 0; y < height_; ++y)
-            for (const Rgb c : color.row(y))
-                image.insert(image.end(), {c.r / 255.0f, c.g / 255.0f, c.b / 255.0f, 0.0f});
+        // The image at the resolution that is needed, and the last in half its size again and again: each
+        // level is made from one of less than twice its own size.
+        const int base = std::max(0, first_ / 2);
+        const auto [base_width, base_height] = size_at(2 * base);
+        std::vector<float> row(4 * std::size_t(width_));  // red, green and blue, 0 … 1, and nothing
+        const auto row_of_image = [&](std::size_t y) -> std::span<const float> {
+            float* to = row.data();
+            for (const Rgb c : color.row(int(y))) {
+                to[0] = c.r / 255.0f, to[1] = c.g / 255.0f, to[2] = c.b / 255.0f;
+                to += 4;
+            }
+            return row;
+        };
+        images_[std::size_t(base)] = resize_area<4>(row_of_image, width_, height_, base_width, base_height);
         std::size_t numbers = 0;
-        last_ = first_ - 1;
-        for (int k = std::min(first_, 2); k <= coarsest; ++k) {
+        for (int k = first_; k <= coarsest; ++k) {
             const auto [w, h] = size_at(k);
             if (k > std::max(0, first_) && std::min(w, h) < 12) break;
-            if (k >= 2 && k % 2 == 0) {
+            if (k % 2 == 0 && k / 2 > base) {
                 const auto [from_w, from_h] = size_at(k - 2);
                 images_[std::size_t(k / 2)] =
                     resize_area<4>(images_[std::size_t(k / 2 - 1)], from_w, from_h, w, h);
             }
-            if (k < first_) continue;
             level(k).width = w, level(k).height = h;
             numbers += HogLevel::count(w, h);
             last_ = k;
@@ -70,7 +76,8 @@ public:
             const int k = first_ + int(i), from = std::max(0, k / 2);
             const auto [w, h] = size_at(2 * from);
             HogLevel& filled = level(k);
-            ResizedRows<4> rows(images_[std::size_t(from)], w, h, filled.width, filled.height);
+            ResizedRows<4> rows({images_[std::size_t(from)], 4 * std::size_t(w)}, w, h, filled.width,
+                                filled.height);
             detail::fill_level(filled, rows);
         });
     }
@@ -92,7 +99,7 @@ private:
     }
 
     int first_ = 0, last_ = 0, width_ = 0, height_ = 0;
-    std::array<std::vector<float>, coarsest / 2 + 1> images_;  // levels 0, 2, 4 …: red, green, blue, nothing
+    std::array<std::vector<float>, coarsest / 2 + 1> images_;  // levels 0, 2, 4 …: four numbers a pixel
     std::unique_ptr<float[]> memory_;                          // the sums of all levels
     std::size_t memory_size_ = 0;
     std::array<HogLevel, coarsest - finest + 1> levels_;  // those from first_ to last_
