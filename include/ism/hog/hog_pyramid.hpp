@@ -32,8 +32,9 @@ public:
     void assign(ImageView<const Rgb> color, int first, ThreadPool& pool) {
         first_ = std::clamp(first, finest, coarsest), width_ = color.width(), height_ = color.height();
         while (first_<coarsest&& double(width_) * height_ * std::exp2(-first_)> max_pixels) ++first_;
-        // The image at the resolution that is needed, and the last in half its size again and again: each
-        // level is made from one of less than twice its own size.
+        // Levels 0, 2, 4 … as images of four numbers a pixel, from the finest that is needed: each level is
+        // made from one of less than twice its own size.
+        std::array<std::vector<float>, coarsest / 2 + 1> images;
         const int base = std::max(0, first_ / 2);
         const auto [base_width, base_height] = size_at(2 * base);
         std::vector<float> row(4 * std::size_t(width_));  // red, green and blue, 0 … 1, and nothing
@@ -45,15 +46,15 @@ public:
             }
             return row;
         };
-        images_[std::size_t(base)] = resize_area<4>(row_of_image, width_, height_, base_width, base_height);
+        images[std::size_t(base)] = resize_area<4>(row_of_image, width_, height_, base_width, base_height);
         std::size_t numbers = 0;
         for (int k = first_; k <= coarsest; ++k) {
             const auto [w, h] = size_at(k);
             if (k > std::max(0, first_) && std::min(w, h) < 12) break;
             if (k % 2 == 0 && k / 2 > base) {
                 const auto [from_w, from_h] = size_at(k - 2);
-                images_[std::size_t(k / 2)] =
-                    resize_area<4>(images_[std::size_t(k / 2 - 1)], from_w, from_h, w, h);
+                images[std::size_t(k / 2)] =
+                    resize_area<4>(images[std::size_t(k / 2 - 1)], from_w, from_h, w, h);
             }
             level(k).width = w, level(k).height = h;
             numbers += HogLevel::count(w, h);
@@ -76,7 +77,7 @@ public:
             const int k = first_ + int(i), from = std::max(0, k / 2);
             const auto [w, h] = size_at(2 * from);
             HogLevel& filled = level(k);
-            ResizedRows<4> rows({images_[std::size_t(from)], 4 * std::size_t(w)}, w, h, filled.width,
+            ResizedRows<4> rows({images[std::size_t(from)], 4 * std::size_t(w)}, w, h, filled.width,
                                 filled.height);
             detail::fill_level(filled, rows);
         });
@@ -99,8 +100,7 @@ private:
     }
 
     int first_ = 0, last_ = 0, width_ = 0, height_ = 0;
-    std::array<std::vector<float>, coarsest / 2 + 1> images_;  // levels 0, 2, 4 …: four numbers a pixel
-    std::unique_ptr<float[]> memory_;                          // the sums of all levels
+    std::unique_ptr<float[]> memory_;  // the sums of all levels
     std::size_t memory_size_ = 0;
     std::array<HogLevel, coarsest - finest + 1> levels_;  // those from first_ to last_
 };
