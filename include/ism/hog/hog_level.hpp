@@ -35,7 +35,7 @@ struct HogLevel {
 
 namespace detail {
 
-/// No longer, since GCC compares number after number where a vector has no instruction of its own, and
+/// Four and not eight: GCC compares number after number where a vector has no instruction of its own, and
 /// without flags x86 has none for eight.
 using FourFloats = Vector<float, 4>;
 /// The sums of a place: directions 0 … 7, their opposites 9 … 16, and then 8, 17, three colours and zeros.

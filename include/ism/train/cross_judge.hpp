@@ -76,8 +76,7 @@ struct FoldJudges {
     std::vector<FigureColors> colors = {};  ///< of each class
 };
 
-/// The classifiers of patches that judges have on the mean, as of templates
-/// (TemplateFitter::mean_templates()).
+/// The mean of the judges' classifiers of patches, as of templates (TemplateFitter::mean_templates()).
 [[nodiscard]] inline PatchClassifier mean_patches(std::span<const FoldJudges> judges) {
     PatchClassifier mean = judges[0].patches;
     const float share = 1 / float(judges.size());

@@ -180,8 +180,9 @@ public:
             fits_[f].scorers = {fits_[f].templates.begin(), fits_[f].templates.end()};
     }
 
-    /// The templates that all fits have on the mean: what one sees in too few examples the others do not
-    /// (bagging: Breiman 1996). Of two sides each shows the one that is more like the first.
+    /// The mean of the templates of all fits (bagging: Breiman 1996): much of what each has from the chance
+    /// of its own examples cancels. Some come out mirrored: each is added on the side that is more like the
+    /// first.
     [[nodiscard]] std::vector<BoxTemplate> mean_templates() const {
         std::vector<BoxTemplate> means = fits_[0].templates;
         const float share = 1 / float(fits_.size());
