@@ -69,10 +69,8 @@ struct LinearSvmOptions {
         return sum;
     };
     std::vector<double> alpha(count, 0), diagonal(count), softness(count);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i)
         softness[i] = 0.5 / (options.cost * (positive[i] ? options.positive_cost : 1));
-        diagonal[i] = dot(rows[i], rows[i]) + options.bias_scale * options.bias_scale + softness[i];
-    }
     LinearClassifier fit{.weights = std::vector<float>(dimension, 0)};
     double bias_weight = 0;
     std::vector<std::uint32_t> order(count);
@@ -93,6 +91,7 @@ struct LinearSvmOptions {
             const float* x = rows[i];
             const double gradient = sign * (dot(fit.weights.data(), x) + bias_weight * options.bias_scale) -
                                     1 + softness[i] * alpha[i];
+            if (round == 0) diagonal[i] = dot(x, x) + options.bias_scale * options.bias_scale + softness[i];
             double projected = gradient;
             if (alpha[i] == 0) {
                 if (gradient > upper) {
