@@ -9,10 +9,13 @@
 
 #include "support/catch.hpp"
 
+#include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
 #include "ism/core/random.hpp"
 #include "ism/core/thread_pool.hpp"
+#include "ism/hog/describe_cells.hpp"
 #include "ism/hog/hog_pyramid.hpp"
+#include "ism/hog/search_box.hpp"
 #include "ism/train/cross_judge.hpp"
 #include "ism/train/fit_box_templates.hpp"
 #include "ism/train/learn_templates.hpp"
@@ -188,6 +191,29 @@ TEST_CASE("no templates are fitted without a fold that shows all there is of a c
     const auto fitter = set.fitted();
     REQUIRE(fitter.fits().size() == fold_count);
     for (const auto& fit : fitter.fits()) CHECK(fit.fold != 2);
+}
+
+TEST_CASE("a search moves a box that is off to the object, and leaves one that no move betters") {
+    const Lined set(12, fold_count);
+    const auto fitter = set.fitted();
+    const ism::TemplateScorer& scorer = fitter.fits()[0].scorers[1];
+    ism::ThreadPool pool(1);
+    const ism::HogPyramid pyramid(set.pixels[3], ism::HogPyramid::finest, pool);
+    ism::CellScratch scratch;
+    const auto at = [&](const ism::Box& box) {
+        const auto score = scorer.score(scorer.describe(pyramid, box, scratch), box);
+        return ism::SearchedBox{box, score.value, score.mirrored};
+    };
+    for (const ism::Box& off : {ism::Box{30, 20, 48, 36}, {20, 10, 58, 44}, {24, 22, 40, 26}}) {
+        const ism::SearchedBox start = at(off), found = ism::search_box(scorer, pyramid, start, scratch);
+        CHECK(found.score > start.score);
+        CHECK(ism::iou(found.box, shown_box) > ism::iou(off, shown_box));
+        CHECK(found.score == scorer.of_side(pyramid, found.box, found.mirrored, scratch));
+    }
+    ism::SearchedBox best = at(shown_box);
+    best.score += 100;
+    const ism::SearchedBox found = ism::search_box(scorer, pyramid, best, scratch);
+    CHECK((found.box == best.box && found.score == best.score));
 }
 
 TEST_CASE("several templates find of the same proposals what each finds alone") {

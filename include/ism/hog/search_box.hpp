@@ -86,7 +86,7 @@ struct SearchedBox {
 };
 
 /// @brief Moves a box to where the template fits best nearby: its place, its size and its sides in turn,
-/// either way, by .16, then .08 and then .04 of the sides, as long as it gains.
+/// either way, by .16, then .08 and then .04 of the sides, each move taken where it gains.
 [[nodiscard]] inline SearchedBox search_box(const TemplateScorer& scorer, const HogPyramid& pyramid,
                                             SearchedBox at, CellScratch& scratch) {
     struct Move {

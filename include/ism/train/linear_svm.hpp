@@ -91,7 +91,8 @@ struct LinearSvmOptions {
             const float* x = rows[i];
             const double gradient = sign * (dot(fit.weights.data(), x) + bias_weight * options.bias_scale) -
                                     1 + softness[i] * alpha[i];
-            if (round == 0) diagonal[i] = dot(x, x) + options.bias_scale * options.bias_scale + softness[i];
+            if (round == 0)  // which visits all
+                diagonal[i] = dot(x, x) + options.bias_scale * options.bias_scale + softness[i];
             double projected = gradient;
             if (alpha[i] == 0) {
                 if (gradient > upper) {
