@@ -49,6 +49,15 @@ inline void sums_between(const HogLevel& level, int x, int top, int bottom, HogS
     return sum_of_lanes<float, 4>(squares) + last * last;
 }
 
+/// Asks for the sums at the lines xs of a line y, which lie in far memory, before they are needed.
+inline void fetch_line(const HogLevel& level, std::span<const int> xs, int y) {
+    y = std::clamp(y, 0, level.height);
+    for (const int x : xs) {
+        const float* sums = level.at(std::clamp(x, 0, level.width), y);
+        __builtin_prefetch(sums), __builtin_prefetch(sums + hog_sums - 1);
+    }
+}
+
 /// The means of a row of cells between the lines xs, from top to bottom in pixels of the level, and the
 /// squared lengths of their directions.
 /// @param at_lines  memory for as many as there are lines
@@ -133,9 +142,11 @@ inline void describe_cells(const HogPyramid& pyramid, const Box& box, const BoxG
     lines(ys, rows, box.y, cell_height, double(level.height) / pyramid.height());
     sums.resize(std::size_t(columns * rows)), at_lines.resize(xs.size()), energy.resize(sums.size()),
         norms.resize(sums.size());
-    for (int j = 0; j < rows; ++j)
+    for (int j = 0; j < rows; ++j) {
+        if (j + 2 <= rows) detail::fetch_line(level, xs, ys[std::size_t(j + 2)]);  // that the next row needs
         detail::row_of_cells(level, xs, ys[std::size_t(j)], ys[std::size_t(j + 1)], at_lines.data(),
                              sums.data() + j * columns, energy.data() + j * columns);
+    }
     for (int j = 0; j + 1 < rows; ++j)
         for (int i = 0; i + 1 < columns; ++i) {  // of the block that begins at this cell
             const float* first = energy.data() + j * columns + i;
