@@ -86,6 +86,22 @@ TEST_CASE("the default tolerance is near the optimum, and the same examples give
         quick.weights);
 }
 
+TEST_CASE("rows of whole numbers give what they stand for gives") {
+    Examples all = clouds(200, 5);
+    std::vector<std::int16_t> whole;
+    for (float& number : all.rows) {
+        whole.push_back(std::int16_t(std::lround(number * 512)));
+        number = float(whole.back()) / 512;
+    }
+    const auto fit =
+        ism::fit_linear_svm(ism::row_starts(all.rows, all.dimension), all.dimension, all.positive);
+    const auto of_whole = ism::fit_linear_svm<std::int16_t>(ism::row_starts(whole, all.dimension),
+                                                            all.dimension, all.positive, {.unit = 1 / 512.0});
+    CHECK(of_whole.bias == Approx(fit.bias).epsilon(1e-3));
+    for (std::size_t k = 0; k < all.dimension; ++k)
+        CHECK(of_whole.weights[k] == Approx(fit.weights[k]).epsilon(1e-3).margin(1e-4));
+}
+
 TEST_CASE("examples of one kind give a classifier that says so") {
     Examples all = clouds(50, 4);
     std::fill(all.positive.begin(), all.positive.end(), std::uint8_t(0));

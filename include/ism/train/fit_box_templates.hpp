@@ -26,15 +26,15 @@
 namespace ism::detail {
 
 /// By how much a row is likelier by these weights as a mirror shows it.
-[[nodiscard]] inline float ahead_mirrored(std::span<const float> weights, const float* plain,
-                                          const float* mirrored) {
+template <RowNumber T>
+[[nodiscard]] float ahead_mirrored(std::span<const float> weights, const T* plain, const T* mirrored) {
     return sum_in_lanes<float, 16>(weights.size(),
-                                   [&](std::size_t k) { return weights[k] * (mirrored[k] - plain[k]); });
+                                   [&](std::size_t k) { return weights[k] * float(mirrored[k] - plain[k]); });
 }
 
 /// Which of the positives are shown mirrored: the assignment whose mean is longest, from six starts.
-[[nodiscard]] inline std::vector<std::uint8_t> sides_of(std::span<const float* const> plain,
-                                                        std::span<const float* const> mirrored,
+[[nodiscard]] inline std::vector<std::uint8_t> sides_of(std::span<const ExampleNumber* const> plain,
+                                                        std::span<const ExampleNumber* const> mirrored,
                                                         std::size_t dimension) {
     const std::size_t count = plain.size();
     std::vector<std::uint8_t> best;
@@ -48,8 +48,8 @@ namespace ism::detail {
         for (int round = 0; round < 12; ++round) {
             std::fill(mean.begin(), mean.end(), 0.0f);
             for (std::size_t i = 0; i < count; ++i) {
-                const float* shown = side[i] ? mirrored[i] : plain[i];
-                for (std::size_t k = 0; k < dimension; ++k) mean[k] += shown[k];
+                const ExampleNumber* shown = side[i] ? mirrored[i] : plain[i];
+                for (std::size_t k = 0; k < dimension; ++k) mean[k] += float(shown[k]);
             }
             bool changed = false;
             for (std::size_t i = 0; i < count; ++i) {
@@ -74,7 +74,7 @@ struct TemplateFit {
     std::vector<BoxTemplate> templates = {};
     std::vector<TemplateScorer> scorers = {};           ///< of these templates
     std::vector<std::vector<std::uint8_t>> sides = {};  ///< of each class: which objects are shown mirrored
-    std::vector<std::vector<std::vector<float>>> mined = {};  ///< of each class and image: rows of negatives
+    std::vector<std::vector<std::vector<ExampleNumber>>> mined = {};  ///< of each class and image: negatives
     std::vector<std::vector<Box>> taken = {};  ///< of each image: what they took for objects when they last
                                                ///< searched it, the likeliest first
 };
@@ -105,7 +105,7 @@ public:
             learnt_from_.push_back(std::min(images.size(), own + max_other_images(classes)));
         }
         TemplateFit blank{.sides = std::vector<std::vector<std::uint8_t>>(classes),
-                          .mined = {classes, std::vector<std::vector<float>>(images.size())},
+                          .mined = {classes, std::vector<std::vector<ExampleNumber>>(images.size())},
                           .taken = std::vector<std::vector<Box>>(images.size())};
         for (std::uint32_t c = 0; c < classes; ++c)
             blank.templates.push_back(blank_template(images, c, options.cells));
@@ -202,7 +202,7 @@ public:
     }
 
 private:
-    // so that the rows of all classes stay below a gigabyte
+    // so that the rows of all classes stay below half a gigabyte
     [[nodiscard]] std::size_t negatives_of_image(std::size_t class_index) const {
         return std::max<std::size_t>(2, max_rows_ / learnt_from_[class_index]);
     }
@@ -222,7 +222,7 @@ private:
         BoxTemplate& one = fit.templates[class_index];
         std::vector<std::uint8_t>& side = fit.sides[class_index];
         const std::size_t dimension = one.grid.cells() * cell_numbers;
-        std::vector<const float*> plain, mirrored, negative;
+        std::vector<const ExampleNumber*> plain, mirrored, negative;
         for (std::size_t i = 0; i < images_.size(); ++i) {
             if (!sees(fit, i)) continue;
             const TemplateExamples& examples = examples_[class_index][i];
@@ -233,14 +233,15 @@ private:
         }
         if (side.empty()) side = sides_of(plain, mirrored, dimension);
         const std::size_t positives = plain.size();
-        std::vector<const float*> rows;
+        std::vector<const ExampleNumber*> rows;
         for (std::size_t i = 0; i < positives; ++i) rows.push_back(side[i] ? mirrored[i] : plain[i]);
         append(rows, negative);
         std::vector<std::uint8_t> positive(rows.size(), 0);
         std::fill_n(positive.begin(), positives, std::uint8_t(1));
         const double rarer = double(negative.size()) / double(positives);
-        LinearClassifier classifier = fit_linear_svm(
-            rows, dimension, positive, {.cost = options_.cost, .positive_cost = std::max(1.0, 0.1 * rarer)});
+        LinearClassifier classifier = fit_linear_svm<ExampleNumber>(
+            rows, dimension, positive,
+            {.cost = options_.cost, .positive_cost = std::max(1.0, 0.1 * rarer), .unit = example_unit});
         for (std::size_t i = 0; i < positives; ++i) {
             side[i] = ahead_mirrored(classifier.weights, plain[i], mirrored[i]) > 0;
         }

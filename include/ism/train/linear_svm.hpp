@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <numeric>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,10 +34,14 @@ inline void add_share(float share, std::span<const float> weights, std::span<flo
 
 }  // namespace detail
 
+/// @brief What rows of examples are made of: whole numbers take half of the memory, which fitting waits for.
+template <typename T>
+concept RowNumber = std::same_as<T, float> || std::same_as<T, std::int16_t>;
+
 /// @brief Where the `dimension` numbers of each example begin that lie one after another.
-[[nodiscard]] inline std::vector<const float*> row_starts(std::span<const float> rows,
-                                                          std::size_t dimension) {
-    std::vector<const float*> starts;
+template <RowNumber T>
+[[nodiscard]] std::vector<const T*> row_starts(const std::vector<T>& rows, std::size_t dimension) {
+    std::vector<const T*> starts;
     for (std::size_t k = 0; k < rows.size(); k += dimension) starts.push_back(rows.data() + k);
     return starts;
 }
@@ -47,26 +53,28 @@ struct LinearSvmOptions {
     double bias_scale = 10;    ///< the constant feature that the bias is the weight of
     double tolerance = 0.01;   ///< of the gradients' spread, for an end
     int max_rounds = 300;      ///< over all examples
+    double unit = 1;           ///< what a 1 in the rows stands for
 };
 
 /// @brief Fits a linear support vector machine with squared hinge loss by dual coordinate descent (Hsieh,
 /// Chang, Lin, Keerthi and Sundararajan 2008, algorithm 1 with shrinking).
 /// @param rows      of each example where its `dimension` numbers begin, see row_starts()
 /// @param positive  of each row
-[[nodiscard]] inline LinearClassifier fit_linear_svm(std::span<const float* const> rows,
-                                                     std::size_t dimension,
-                                                     std::span<const std::uint8_t> positive,
-                                                     const LinearSvmOptions& options = {}) {
+/// @tparam T        of the rows
+template <RowNumber T = float>
+[[nodiscard]] LinearClassifier fit_linear_svm(std::type_identity_t<std::span<const T* const>> rows,
+                                              std::size_t dimension, std::span<const std::uint8_t> positive,
+                                              const LinearSvmOptions& options = {}) {
     const std::size_t count = positive.size();
-    const auto dot = [&](const float* a, const float* b) {
+    const auto dot = [&](const auto* a, const T* b) {
         std::array<float, 16> sums{};
         const std::size_t whole = dimension / 16 * 16;
         for (std::size_t k = 0; k < whole; k += 16)
-            for (std::size_t l = 0; l < 16; ++l) sums[l] += a[k + l] * b[k + l];
+            for (std::size_t l = 0; l < 16; ++l) sums[l] += float(a[k + l]) * float(b[k + l]);
         double sum = 0;
         for (const float s : sums) sum += s;
-        for (std::size_t k = whole; k < dimension; ++k) sum += a[k] * b[k];
-        return sum;
+        for (std::size_t k = whole; k < dimension; ++k) sum += float(a[k]) * float(b[k]);
+        return sum * options.unit;
     };
     std::vector<double> alpha(count, 0), diagonal(count), softness(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -88,11 +96,12 @@ struct LinearSvmOptions {
         for (std::size_t s = 0; s < active; ++s) {
             const std::uint32_t i = order[s];
             const double sign = positive[i] ? 1 : -1;
-            const float* x = rows[i];
+            const T* x = rows[i];
             const double gradient = sign * (dot(fit.weights.data(), x) + bias_weight * options.bias_scale) -
                                     1 + softness[i] * alpha[i];
             if (round == 0)  // which visits all
-                diagonal[i] = dot(x, x) + options.bias_scale * options.bias_scale + softness[i];
+                diagonal[i] =
+                    options.unit * dot(x, x) + options.bias_scale * options.bias_scale + softness[i];
             double projected = gradient;
             if (alpha[i] == 0) {
                 if (gradient > upper) {
@@ -106,7 +115,8 @@ struct LinearSvmOptions {
             const double before = alpha[i];
             alpha[i] = std::max(0.0, alpha[i] - gradient / diagonal[i]);
             const double change = (alpha[i] - before) * sign;
-            for (std::size_t k = 0; k < dimension; ++k) fit.weights[k] += float(change) * x[k];
+            const auto share = float(change * options.unit);
+            for (std::size_t k = 0; k < dimension; ++k) fit.weights[k] += share * float(x[k]);
             bias_weight += change * options.bias_scale;
         }
         if (most - least <= options.tolerance) {

@@ -140,10 +140,14 @@ namespace detail {
     return result;
 }
 
+/// A number of a cell in an example, in parts of so much: those of cells are within ±1.
+using ExampleNumber = std::int16_t;
+inline constexpr float example_unit = 1 / 16384.0f;
+
 /// What a template is fitted to, of one image: rows of cells.
 struct TemplateExamples {
-    std::vector<float> plain = {}, mirrored = {};  ///< boxes of objects, and the same as a mirror shows them
-    std::vector<float> negative = {};
+    std::vector<ExampleNumber> plain = {}, mirrored = {};  ///< boxes of objects, and as a mirror shows them
+    std::vector<ExampleNumber> negative = {};
 };
 
 /// The cells of boxes, as they are or mirrored, one row after another.
@@ -152,10 +156,13 @@ public:
     CellRows(const HogPyramid& pyramid, const BoxGrid& grid)
         : pyramid_(pyramid), grid_(grid), cells_(grid.cells() * cell_numbers) {}
 
-    void append(const Box& box, bool mirrored, std::vector<float>& rows) {
+    void append(const Box& box, bool mirrored, std::vector<ExampleNumber>& rows) {
         describe_cells(pyramid_, box, grid_, cells_, scratch_);
         const std::vector<float>& row = mirrored ? mirror_ = mirrored_cells(cells_, grid_) : cells_;
-        rows.insert(rows.end(), row.begin(), row.end());
+        rows.resize(rows.size() + row.size());
+        std::transform(row.begin(), row.end(), rows.end() - std::ptrdiff_t(row.size()), [](float number) {
+            return ExampleNumber(number / example_unit + (number < 0 ? -0.5f : 0.5f));
+        });
     }
 
 private:
