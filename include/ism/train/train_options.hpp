@@ -20,7 +20,7 @@ struct TrainingFeatureOptions {
     std::size_t max_features = 40000;  ///< on all objects together; each gives its strongest, at least 30
     bool choose_upsampling = true;     ///< small objects are enlarged; false: as the extractor says
     bool views = true;    ///< also keep all features of the images, which box classifier and calibration need
-    bool mirror = true;   ///< … and those of the mirrored images
+    bool mirror = true;   ///< … and those of the mirrored images: for judging by words, not for templates
     bool pixels = false;  ///< also keep the images' colours, which templates need
     bool depth =
         false;  ///< also keep what images with depth and camera tell of it, which learn_metric() needs
