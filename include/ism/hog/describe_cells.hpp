@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ism/core/geometry.hpp"
+#include "ism/core/processor.hpp"
 #include "ism/core/vector.hpp"
 #include "ism/hog/box_template.hpp"
 #include "ism/hog/hog_pyramid.hpp"
@@ -82,7 +83,7 @@ inline void row_of_cells(const HogLevel& level, std::span<const int> xs, int top
 }
 
 /// The numbers of a cell, by one over the lengths of the four blocks of 2 × 2 cells that it belongs to.
-inline void normalise_cell(const HogSums& cell, const float (&norms)[4], float* out) {
+ISM_DETAIL_INLINE void normalise_cell(const HogSums& cell, const float (&norms)[4], float* out) {
     FourFloats limit = FourFloats{} + 0.2f;
     forget<float, 4>(limit);
     const float last = cell[4][0], opposite = cell[4][1];
