@@ -50,7 +50,7 @@ inline void sums_between(const HogLevel& level, int x, int top, int bottom, HogS
     return sum_of_lanes<float, 4>(squares) + last * last;
 }
 
-/// Asks for the sums at the lines xs of a line y, which lie in far memory, before they are needed.
+/// Fetches the sums where the lines xs cross the line y from far memory, before they are needed.
 inline void fetch_line(const HogLevel& level, std::span<const int> xs, int y) {
     y = std::clamp(y, 0, level.height);
     for (const int x : xs) {

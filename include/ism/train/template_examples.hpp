@@ -140,7 +140,8 @@ namespace detail {
     return result;
 }
 
-/// A number of a cell in an example, in parts of so much: those of cells are within ±1.
+/// A number of a cell as examples keep it, in multiples of example_unit: fitting waits for memory. Numbers of
+/// cells lie within ±1.
 using ExampleNumber = std::int16_t;
 inline constexpr float example_unit = 1 / 16384.0f;
 
