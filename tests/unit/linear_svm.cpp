@@ -86,7 +86,7 @@ TEST_CASE("the default tolerance is near the optimum, and the same examples give
         quick.weights);
 }
 
-TEST_CASE("rows of whole numbers give what they stand for gives") {
+TEST_CASE("rows of whole numbers give the classifier of the numbers that they stand for") {
     Examples all = clouds(200, 5);
     std::vector<std::int16_t> whole;
     for (float& number : all.rows) {
