@@ -122,7 +122,7 @@ struct Found {
     const auto features = program::extract_training_features(
         train.class_names, ism::training_set(train),
         {program::make_extractor(ism::settings_of(ism::metric_extractor()))},
-        {.features = {.choose_upsampling = false, .mirror = false, .depth = true}, .threads = threads});
+        {.features = {.choose_upsampling = false, .depth = true}, .threads = threads});
     const ism::Model single = ism::learn_metric(features, {}, threads);
     program::SearchOptions votes;
     votes.space = program::metric_space, votes.rescorer = "none";

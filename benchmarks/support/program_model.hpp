@@ -16,7 +16,7 @@ namespace bench {
 /// @param features  with pixels templates can be learnt from them
 [[nodiscard]] ism::TrainingFeatures features_as_program(const ism::Dataset& set, unsigned threads,
                                                         const ism::TrainingFeatureOptions& features = {
-                                                            .mirror = false, .pixels = true});
+                                                            .pixels = true});
 
 /// @brief What `ism train` learns from colour images with its defaults.
 [[nodiscard]] ism::Model learn_as_program(const ism::Dataset& set, unsigned threads);

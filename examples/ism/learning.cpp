@@ -53,7 +53,6 @@ ism::Model learn_rgbd(std::span<const std::string> class_names, const ism::Train
         class_names, set, {make_extractor(ism::settings_of(ism::metric_extractor()))},
         {.max_features = options.features.max_features,
          .choose_upsampling = false,
-         .mirror = false,
          .pixels = true,
          .depth = true},
         options.threads, options.progress);

@@ -141,7 +141,6 @@ void run_train(const TrainCommand& command) {
         why_so = text_of(shared);
     }
     options.features.pixels = templates;
-    options.features.mirror = !templates;  // which judge both sides
     ism::TrainingFeatures features =
         extract_training_features(dataset.class_names, named_images(dataset), extractors, options);
     if (known) features = ism::append(std::move(known->features), std::move(features));

@@ -43,7 +43,7 @@ const ism::TrainingFeatures& pattern_features() {
             images.push_back(pattern_picture(std::uint32_t(i % 2), 20 + 12 * int(i), 15 + 6 * int(i), i));
         return ism::extract_training_features(pattern_names, ism::training_set(images),
                                               {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}},
-                                              {.mirror = false, .pixels = true});
+                                              {.pixels = true});
     }();
     return features;
 }

@@ -185,7 +185,7 @@ private:
                 parts[i].views.back().pixels = FrameColors(image.frame).image();
             if (options.views && options.depth)
                 parts[i].views.back().depth = detail::training_depth(std::as_const(image));
-            if (options.views && options.mirror) {
+            if (options.mirror()) {
                 parts[i].views.push_back(workers[worker]->view(mirrored(std::move(image))));
                 parts[i].views.back().mirrored = true;
             }

@@ -20,10 +20,13 @@ struct TrainingFeatureOptions {
     std::size_t max_features = 40000;  ///< on all objects together; each gives its strongest, at least 30
     bool choose_upsampling = true;     ///< small objects are enlarged; false: as the extractor says
     bool views = true;    ///< also keep all features of the images, which box classifier and calibration need
-    bool mirror = true;   ///< … and those of the mirrored images: for judging by words, not for templates
     bool pixels = false;  ///< also keep the images' colours, which templates need
     bool depth =
         false;  ///< also keep what images with depth and camera tell of it, which learn_metric() needs
+
+    /// @brief Whether the views of mirrored images are kept too: where words alone judge. Templates look at
+    /// both sides themselves, and in space left is not right.
+    [[nodiscard]] constexpr bool mirror() const { return views && !pixels && !depth; }
 };
 
 /// @brief Whether classes share words.
