@@ -235,14 +235,14 @@ TEST_CASE("objects are cut out to the pixel by exemplars of other colours") {
         }
 }
 
-TEST_CASE("the box of a figure leaves out what lies beyond its sides") {
+TEST_CASE("the box of a figure lies half way between those of its mask and of what is likely") {
     ism::Segmentation part;
     CHECK(ism::figure_box(part, 0.05).area() == 0);
-    part.x = 7, part.y = 11, part.figure = ism::GrayImage(20, 10);
+    part.x = 7, part.y = 11, part.figure = ism::GrayImage(20, 10), part.mask = ism::Mask(20, 10);
     CHECK(ism::figure_box(part, 0.05).area() == 0);
     for (int y = 2; y < 6; ++y)
         for (int x = 4; x < 14; ++x) part.figure(x, y) = 0.5f;
-    const ism::Box whole = ism::figure_box(part, 0);
+    const ism::Box whole = ism::figure_box(part, 0);  // without a mask by what is likely alone
     CHECK(whole.x == 11);
     CHECK(whole.y == 13);
     CHECK(whole.width == 10);
@@ -252,6 +252,13 @@ TEST_CASE("the box of a figure leaves out what lies beyond its sides") {
     CHECK(inner.width == Approx(9));
     CHECK(inner.y == Approx(13.2));
     CHECK(inner.height == Approx(3.6));
+    part.mask(4, 3) = part.mask(9, 4) = 1;
+    const ism::Box middle = ism::figure_box(part, 0.05);
+    CHECK(middle.x == Approx((11 + 11.5) / 2));
+    CHECK(middle.width == Approx((6 + 9) / 2.0));
+    CHECK(middle.y == Approx((14 + 13.2) / 2));
+    CHECK(middle.height == Approx((2 + 3.6) / 2));
+    part.mask = ism::Mask(20, 10);
     part.figure(19, 9) = 0.1f;  // a stray pixel, half a percent of all
     CHECK(ism::figure_box(part, 0.01).width == Approx(9.8).margin(0.1));
     const ism::Box between = ism::box_between({0, 0, 10, 20}, {4, 2, 2, 4}, 0.75);

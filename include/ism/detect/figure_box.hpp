@@ -29,28 +29,35 @@ struct Inner {
     return {cut(sums.begin(), sums.end()), double(sums.size()) - cut(sums.rbegin(), sums.rend())};
 }
 
-}  // namespace detail
-
-/// @brief The box of the figure of a segmentation: beyond each of its sides lies a share `outside` of
-/// p(figure), so that a stray pixel does not count.
-/// @return pixels of the image; without area where there is no figure
-[[nodiscard]] inline Box figure_box(const Segmentation& part, double outside) {
-    std::vector<double> columns(std::size_t(part.figure.width()), 0),
-        rows(std::size_t(part.figure.height()), 0);
-    for (int y = 0; y < part.figure.height(); ++y)
-        for (int x = 0; x < part.figure.width(); ++x) {
-            const double p = double(part.figure(x, y));
+/// The box beyond each of whose sides lies a share `outside` of p(figure), in the part's own pixels.
+[[nodiscard]] inline Box likely_box(const GrayImage& figure, double outside) {
+    std::vector<double> columns(std::size_t(figure.width()), 0), rows(std::size_t(figure.height()), 0);
+    for (int y = 0; y < figure.height(); ++y)
+        for (int x = 0; x < figure.width(); ++x) {
+            const double p = double(figure(x, y));
             columns[std::size_t(x)] += p, rows[std::size_t(y)] += p;
         }
-    const detail::Inner x = detail::inner_part(columns, outside), y = detail::inner_part(rows, outside);
-    return {part.x + x.begin, part.y + y.begin, std::max(0.0, x.end - x.begin),
-            std::max(0.0, y.end - y.begin)};
+    const Inner x = inner_part(columns, outside), y = inner_part(rows, outside);
+    return {x.begin, y.begin, std::max(0.0, x.end - x.begin), std::max(0.0, y.end - y.begin)};
 }
+
+}  // namespace detail
 
 /// @brief A box whose sides lie between those of two: 0 = at the first's, 1 = at the second's.
 [[nodiscard]] inline Box box_between(const Box& a, const Box& b, double share) {
     const auto mixed = [&](double from, double to) { return from + share * (to - from); };
     return {mixed(a.x, b.x), mixed(a.y, b.y), mixed(a.width, b.width), mixed(a.height, b.height)};
+}
+
+/// @brief The box of the figure of a segmentation, half way between two: that of its mask, which is exact
+/// where the mask is whole, and that beyond each of whose sides lies a share `outside` of p(figure), which
+/// also reaches to what is no more than likely.
+/// @return pixels of the image; without area where there is no figure
+[[nodiscard]] inline Box figure_box(const Segmentation& part, double outside) {
+    const Box likely = detail::likely_box(part.figure, outside), cut_out = mask_box(part.mask);
+    Box box = cut_out.area() > 0 ? box_between(cut_out, likely, 0.5) : likely;
+    box.x += part.x, box.y += part.y;
+    return box;
 }
 
 }  // namespace ism
