@@ -69,6 +69,21 @@ TEST_CASE("training asks for each image once, and for labels before") {
     CHECK(model.training.features_used == model.training.features_found);
 }
 
+TEST_CASE("mirrored images are seen for the words alone, where neither colours nor depth are kept") {
+    const auto images = pictures_of(0);
+    const auto views = [&](const ism::TrainingFeatureOptions& options) {
+        return ism::extract_training_features(std::span(class_names).first(1), ism::training_set(images),
+                                              extractors, options)
+            .views;
+    };
+    const auto by_words = views({});
+    REQUIRE(by_words.size() == 6);
+    for (std::size_t v = 0; v < by_words.size(); ++v) CHECK(by_words[v].mirrored == (v % 2 == 1));
+    CHECK(views({.pixels = true}).size() == 3);
+    CHECK(views({.depth = true}).size() == 3);
+    CHECK(views({.views = false}).empty());
+}
+
 TEST_CASE("the limit of features leaves the strongest of each object, and the summary tells of it") {
     const auto images = pictures_of(0);
     const auto all = features_of(std::span(class_names).first(1), images);

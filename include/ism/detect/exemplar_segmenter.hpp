@@ -37,8 +37,8 @@ struct ExemplarSegmenter {
     double max_log_ratio = 3;     ///< what a colour can say
     double filter_radius = 0.03;  ///< in parts of the root of the box's area
     double filter_epsilon = 1e-4;  ///< variance of colours (0 … 1) that is no edge
-    double placing = 0.8;          ///< how far the sides of a box go to those of what was cut out …
-    double outside = 0.005;        ///< … beyond each of which so much of the figure lies, see figure_box()
+    double placing = 0.8;          ///< how far the sides of a box go to those of what was cut out
+    double outside = 0.005;        ///< share of p(figure) that may lie beyond each of these, see figure_box()
     PatchSegmenter votes = {};     ///< for classes without exemplars
 
     [[nodiscard]] Segmentation segment(const Detection& hypothesis, const Scene& scene) const;

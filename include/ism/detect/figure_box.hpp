@@ -49,9 +49,9 @@ struct Inner {
     return {mixed(a.x, b.x), mixed(a.y, b.y), mixed(a.width, b.width), mixed(a.height, b.height)};
 }
 
-/// @brief The box of the figure of a segmentation, half way between two: that of its mask, which is exact
-/// where the mask is whole, and that beyond each of whose sides lies a share `outside` of p(figure), which
-/// also reaches to what is no more than likely.
+/// @brief The box of the figure of a segmentation, half way between two: that of its mask, exact where the
+/// mask is whole, and a wider one that also reaches what is no more than likely, beyond each of whose sides
+/// lies a share `outside` of p(figure).
 /// @return pixels of the image; without area where there is no figure
 [[nodiscard]] inline Box figure_box(const Segmentation& part, double outside) {
     const Box likely = detail::likely_box(part.figure, outside), cut_out = mask_box(part.mask);

@@ -24,8 +24,8 @@ struct TrainingFeatureOptions {
     bool depth =
         false;  ///< also keep what images with depth and camera tell of it, which learn_metric() needs
 
-    /// @brief Whether the views of mirrored images are kept too: where words alone judge. Templates look at
-    /// both sides themselves, and in space left is not right.
+    /// @brief Whether views of the mirrored images are kept too, for the classifier of words. Templates look
+    /// at both sides themselves, and learn_metric() reads none of them.
     [[nodiscard]] constexpr bool mirror() const { return views && !pixels && !depth; }
 };
 
