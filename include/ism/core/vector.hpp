@@ -20,6 +20,15 @@ namespace ism::detail {
 template <class T, std::size_t N>
 using Vector [[gnu::vector_size(N * sizeof(T))]] = T;
 
+/// Floats in a register, of those that the compiler's flags allow.
+#if defined(__AVX512F__)
+inline constexpr std::size_t native_lanes = 16;
+#elif defined(__AVX__)
+inline constexpr std::size_t native_lanes = 8;
+#else
+inline constexpr std::size_t native_lanes = 4;
+#endif
+
 /// Makes the compiler forget what it knows of a value. g++ 12 has an instruction for a < b ? a : b, but where
 /// b is a constant it compares, masks both and joins them.
 template <class T, std::size_t N>

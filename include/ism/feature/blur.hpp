@@ -5,80 +5,107 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "ism/core/aligned.hpp"
 #include "ism/core/callable.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/vector.hpp"
 #include "ism/feature/workspace.hpp"
 
 namespace ism {
 
 namespace detail {
 
-inline constexpr int unrolled_radius = 11;  // no detector's default options blur with a larger one
+/// Columns that are blurred side by side; what is written does not depend on how many they are.
+#if defined(__GNUC__)
+using BlurLanes = Vector<float, native_lanes>;
+#else
+using BlurLanes = float;
+#endif
+inline constexpr int blur_lanes = sizeof(BlurLanes) / sizeof(float);
 
-/// Two rows of blurred columns, one below the other. `rows` are the 2 · radius + 2 rows around them. With
-/// Radius > 0 the tap loops have a fixed length, so that the compiler can unroll and vectorise them.
-template <int Radius>
-void blur_columns(const float* const* rows, const float* kernel, int dynamic_radius, int width,
-                  float* __restrict upper, float* __restrict lower) {
-    if constexpr (Radius > 0) {
-        for (int x = 0; x < width; ++x) {
-            float up = kernel[0] * rows[Radius][x], down = kernel[0] * rows[Radius + 1][x];
-            for (int t = 1; t <= Radius; ++t) {
-                up += kernel[t] * (rows[Radius - t][x] + rows[Radius + t][x]);
-                down += kernel[t] * (rows[Radius + 1 - t][x] + rows[Radius + 1 + t][x]);
-            }
-            upper[x] = up, lower[x] = down;
+/// Two rows of blurred columns, one below the other. `rows` are the 2 · radius + 2 rows around them.
+inline void blur_columns(const float* const* rows, const float* kernel, int radius, int width, float* upper,
+                         float* lower) {
+    constexpr int parts = 2, block = parts * blur_lanes;
+    const float* const* const middle = rows + radius;
+    int x = 0;
+    while (x < width && width >= block) {
+        x = std::min(x, width - block);  // the last block does some columns again
+        BlurLanes up[parts], down[parts], above[parts], below[parts];
+#pragma GCC unroll 8
+        for (int p = 0; p < parts; ++p) {
+            std::memcpy(&above[p], middle[0] + x + p * blur_lanes, sizeof(BlurLanes));
+            std::memcpy(&below[p], middle[1] + x + p * blur_lanes, sizeof(BlurLanes));
+            up[p] = kernel[0] * above[p], down[p] = kernel[0] * below[p];
         }
-    } else {
-        const float* const* middle = rows + dynamic_radius;
-        for (int x = 0; x < width; ++x)
-            upper[x] = kernel[0] * middle[0][x], lower[x] = kernel[0] * middle[1][x];
-        for (int t = 1; t <= dynamic_radius; ++t)
-            for (int x = 0; x < width; ++x) {
-                upper[x] += kernel[t] * (middle[-t][x] + middle[t][x]);
-                lower[x] += kernel[t] * (middle[1 - t][x] + middle[1 + t][x]);
+        for (int t = 1; t <= radius; ++t) {  // what is t below one row is t − 1 below the other
+            const float *const top = middle[-t] + x, *const bottom = middle[1 + t] + x;
+            const float weight = kernel[t];
+#pragma GCC unroll 8
+            for (int p = 0; p < parts; ++p) {
+                BlurLanes high, low;
+                std::memcpy(&high, top + p * blur_lanes, sizeof(BlurLanes));
+                std::memcpy(&low, bottom + p * blur_lanes, sizeof(BlurLanes));
+                up[p] += weight * (high + below[p]);
+                down[p] += weight * (above[p] + low);
+                above[p] = high, below[p] = low;
             }
+        }
+#pragma GCC unroll 8
+        for (int p = 0; p < parts; ++p) {
+            std::memcpy(upper + x + p * blur_lanes, &up[p], sizeof(BlurLanes));
+            std::memcpy(lower + x + p * blur_lanes, &down[p], sizeof(BlurLanes));
+        }
+        x += block;
+    }
+    for (; x < width; ++x) {
+        float up = kernel[0] * middle[0][x], down = kernel[0] * middle[1][x];
+        for (int t = 1; t <= radius; ++t) {
+            up += kernel[t] * (middle[-t][x] + middle[t][x]);
+            down += kernel[t] * (middle[1 - t][x] + middle[1 + t][x]);
+        }
+        upper[x] = up, lower[x] = down;
     }
 }
 
 /// One blurred row of a row that has `radius` spare pixels at either end.
-template <int Radius>
-void blur_along(float* __restrict row, const float* kernel, int dynamic_radius, int width,
-                float* __restrict out) {
-    const int radius = Radius > 0 ? Radius : dynamic_radius;
+inline void blur_along(float* row, const float* kernel, int radius, int width, float* out) {
+    constexpr int parts = 4, block = parts * blur_lanes;
     for (int t = 1; t <= radius; ++t) row[-t] = row[0], row[width - 1 + t] = row[width - 1];
-    if constexpr (Radius > 0) {
-        for (int x = 0; x < width; ++x) {
-            float sum = kernel[0] * row[x];
-            for (int t = 1; t <= Radius; ++t) sum += kernel[t] * (row[x - t] + row[x + t]);
-            out[x] = sum;
+    int x = 0;
+    while (x < width && width >= block) {
+        x = std::min(x, width - block);
+        BlurLanes sums[parts];
+#pragma GCC unroll 8
+        for (int p = 0; p < parts; ++p) {
+            BlurLanes middle;
+            std::memcpy(&middle, row + x + p * blur_lanes, sizeof(BlurLanes));
+            sums[p] = kernel[0] * middle;
         }
-    } else {
-        for (int x = 0; x < width; ++x) out[x] = kernel[0] * row[x];
-        for (int t = 1; t <= radius; ++t)
-            for (int x = 0; x < width; ++x) out[x] += kernel[t] * (row[x - t] + row[x + t]);
+        for (int t = 1; t <= radius; ++t) {
+            const float weight = kernel[t];
+#pragma GCC unroll 8
+            for (int p = 0; p < parts; ++p) {
+                BlurLanes left, right;
+                std::memcpy(&left, row + x + p * blur_lanes - t, sizeof(BlurLanes));
+                std::memcpy(&right, row + x + p * blur_lanes + t, sizeof(BlurLanes));
+                sums[p] += weight * (left + right);
+            }
+        }
+#pragma GCC unroll 8
+        for (int p = 0; p < parts; ++p) std::memcpy(out + x + p * blur_lanes, &sums[p], sizeof(BlurLanes));
+        x += block;
+    }
+    for (; x < width; ++x) {
+        float sum = kernel[0] * row[x];
+        for (int t = 1; t <= radius; ++t) sum += kernel[t] * (row[x - t] + row[x + t]);
+        out[x] = sum;
     }
 }
-
-/// The blur functions for one radius.
-struct BlurFunctions {
-    void (*columns)(const float* const*, const float*, int, int, float* __restrict, float* __restrict);
-    void (*along)(float* __restrict, const float*, int, int, float* __restrict);
-};
-
-template <int... Radius>
-[[nodiscard]] constexpr std::array<BlurFunctions, sizeof...(Radius)> blur_functions(
-    std::integer_sequence<int, Radius...>) {
-    return {BlurFunctions{&blur_columns<Radius>, &blur_along<Radius>}...};
-}
-
-/// Entry r is for the radius r; entry 0 for every other one.
-inline constexpr auto blur_of_radius = blur_functions(std::make_integer_sequence<int, unrolled_radius + 1>{});
 
 inline constexpr int blur_rows_at_once = 16;
 
@@ -87,37 +114,47 @@ inline constexpr int blur_rows_at_once = 16;
     return std::size_t(blur_rows_at_once) * std::size_t(whole_lines(radius) + whole_lines(width + radius));
 }
 
-/// The blurred rows first … end − 1: row y is written to out_row(y); source_row(y) gives row y of the image,
-/// which has `height` rows. Columns go in strips so narrow that what a few rows need of them stays in the
-/// nearest cache.
-template <Callable<int> Source, Callable<int> Out>
-void blur_band(const Source& source_row, int width, int height, std::span<const float> kernel, int first,
-               int end, float* scratch, const Out& out_row) {
+/// A few blurred rows. Columns go in strips so narrow that what the rows need of them stays in the nearest
+/// cache.
+/// @param sources  count + 2 · radius + 1 rows around them; they are moved along
+/// @param outs     `count` rows, at most blur_rows_at_once
+inline void blur_rows(const float** sources, int count, int width, std::span<const float> kernel,
+                      float* scratch, float* const* outs) {
     constexpr int strip = 128;
     const int radius = int(kernel.size()) - 1, margin = whole_lines(radius);
     const int pitch = margin + whole_lines(width + radius);
-    const bool unrolled = radius <= unrolled_radius;
-    const BlurFunctions& blur = blur_of_radius[std::size_t(unrolled ? radius : 0)];
-    std::array<const float*, 2 * unrolled_radius + blur_rows_at_once + 1> few;
-    std::vector<const float*> many(unrolled ? 0 : 2 * std::size_t(radius) + blur_rows_at_once + 1);
-    const float** sources = unrolled ? few.data() : many.data();
+    for (int x = 0; x < width; x += strip) {
+        for (int i = 0; i < count; i += 2) {
+            float* upper = scratch + std::ptrdiff_t(i) * pitch + margin + x;
+            blur_columns(sources + i, kernel.data(), radius, std::min(strip, width - x), upper,
+                         upper + pitch);
+        }
+        for (int i = 0; i < count + 2 * radius + 1; ++i) sources[i] += strip;
+    }
+    for (int i = 0; i < count; ++i)
+        blur_along(scratch + std::ptrdiff_t(i) * pitch + margin, kernel.data(), radius, width, outs[i]);
+}
+
+/// The blurred rows first … end − 1: row y is written to out_row(y); source_row(y) gives row y of the image,
+/// which has `height` rows.
+template <Callable<int> Source, Callable<int> Out>
+void blur_band(const Source& source_row, int width, int height, std::span<const float> kernel, int first,
+               int end, float* scratch, const Out& out_row) {
+    constexpr int usual_radius = 11;  // no detector's default options blur with a larger one
+    const int radius = int(kernel.size()) - 1;
+    std::array<const float*, 2 * usual_radius + blur_rows_at_once + 1> few;
+    std::vector<const float*> many(radius > usual_radius ? 2 * std::size_t(radius) + blur_rows_at_once + 1
+                                                         : 0);
+    const float** const sources = radius > usual_radius ? many.data() : few.data();
+    std::array<float*, blur_rows_at_once> outs;
     for (int y = first; y < end; y += blur_rows_at_once) {
         const int count = std::min(blur_rows_at_once, end - y);
         // an odd last row is paired with a repeated one, whose result is discarded
         for (int i = 0; i < count + 2 * radius; ++i)
             sources[i] = source_row(std::clamp(y - radius + i, 0, height - 1));
         sources[count + 2 * radius] = sources[count + 2 * radius - 1];
-        for (int x = 0; x < width; x += strip) {
-            for (int i = 0; i < count; i += 2) {
-                float* upper = scratch + std::ptrdiff_t(i) * pitch + margin + x;
-                blur.columns(sources + i, kernel.data(), radius, std::min(strip, width - x), upper,
-                             upper + pitch);
-            }
-            for (int i = 0; i < count + 2 * radius + 1; ++i) sources[i] += strip;
-        }
-        for (int i = 0; i < count; ++i)
-            blur.along(scratch + std::ptrdiff_t(i) * pitch + margin, kernel.data(), radius, width,
-                       out_row(y + i));
+        for (int i = 0; i < count; ++i) outs[std::size_t(i)] = out_row(y + i);
+        blur_rows(sources, count, width, kernel, scratch, outs.data());
     }
 }
 
