@@ -15,12 +15,12 @@ set(budget
     "train/train.hpp            | 136 | "
     "evaluate/evaluate.hpp      |  10 | "
     "core/frame.hpp             |   8 | "
-    "feature/hessian_laplace.hpp|  28 | "
-    "feature/sift.hpp           |  25 | "
+    "feature/hessian_laplace.hpp|  30 | "
+    "feature/sift.hpp           |  28 | "
     "dataset/dataset.hpp        |  13 | "
     "dataset/coco.hpp           |  19 | nlohmann/"
     "io/images.hpp              |  12 | stb/ memory"
-    "model_file/model_file.hpp  |  68 | nlohmann/"
+    "model_file/model_file.hpp  |  70 | nlohmann/"
 )
 set(errors "")
 

@@ -37,9 +37,9 @@ public:
         slot_.resize(asking_, none);
         slot_.insert(slot_.end(), others.begin(), others.end());
         slot_.resize((slot_.size() + tile_columns - 1) / tile_columns * tile_columns, none);
-        half_sq_norm_.resize(slot_.size());
-        cutoff_.resize(slot_.size());
-        panels_.resize(slot_.size() * projected_dimension);
+        half_sq_norm_.make_room(slot_.size());
+        cutoff_.make_room(slot_.size());
+        panels_.make_room(slot_.size() * projected_dimension);
     }
 
     void run(ThreadPool& pool) {

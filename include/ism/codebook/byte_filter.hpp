@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -27,12 +28,12 @@ class ByteFilter {
 public:
     struct Block {
         AlignedVector<std::uint8_t> rows;
-        AlignedVector<std::int32_t> limits;
-        AlignedVector<std::int32_t> bias;  // of a group of words
-        std::vector<double> rest;          // of each query: its part of the bound of d·w
-        double unit = 1;                   // what 1 of the integers stands for in d·w
-        double least = 0;                  // what the byte 0 of a query stands for
-        double error = 0, length = 0;      // the largest |e| and |d' − c|
+        AlignedVector<std::int32_t> limits{filter_block};
+        AlignedVector<std::int32_t> bias{filter_group};  // of a group of words
+        std::array<double, filter_block> rest;           // of each query: its part of the bound of d·w
+        double unit = 1;                                 // what 1 of the integers stands for in d·w
+        double least = 0;                                // what the byte 0 of a query stands for
+        double error = 0, length = 0;                    // the largest |e| and |d' − c|
     };
 
     ByteFilter() = default;
@@ -99,7 +100,7 @@ inline ByteFilter::ByteFilter(std::span<const float> words, std::span<const floa
         for (std::size_t k = 0; k < dimension; ++k)
             centre_[k] += double(words[w * dimension + k]) / double(count);
 
-    panels_.resize(room * padded_);
+    panels_.make_room(room * padded_);
     for (auto* values : {&known_, &sum_, &length_, &error_}) values->assign(room, 0.0f);
     std::vector<std::uint8_t> bytes(padded_);
     for (std::size_t w = 0; w < count; ++w) {
@@ -125,8 +126,7 @@ inline ByteFilter::ByteFilter(std::span<const float> words, std::span<const floa
 
 inline void ByteFilter::prepare(std::span<const float> rows, const std::vector<double>& sq_lengths,
                                 double max_sq_distance, Block& block) const {
-    block.rows.resize(filter_block * padded_);
-    block.limits.resize(filter_block), block.rest.resize(filter_block), block.bias.resize(filter_group);
+    block.rows.make_room(filter_block * padded_);
     ByteScale scale = byte_scale(rows, scale_.levels);
     scale.step = std::max(scale.step, scale_.step * 0x1p-10);
     block.least = scale.least, block.unit = scale.step * scale_.step;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,8 +22,9 @@ namespace ism::detail {
 class FloatFilter {
 public:
     struct Block {
-        std::vector<float> rows, limits;
-        std::vector<double> rounding;  // of each query
+        std::span<const float> rows;  // as prepare() was given them
+        std::array<float, filter_block> limits;
+        std::array<double, filter_block> rounding;  // of each query
     };
 
     FloatFilter() = default;
@@ -30,7 +32,7 @@ public:
                 InstructionSet isa)
         : dimension_(dimension), kernel_(float_kernel(isa)) {
         const std::size_t count = mean_sq_length.size();
-        panels_.resize(filter_groups(count) * filter_group * dimension);
+        panels_.make_room(filter_groups(count) * filter_group * dimension);
         bias_.assign(filter_groups(count) * filter_group, 0.0f);
         Dot<float>* const dot = exact_dot<float>(isa);
         double sq_length = 0;
@@ -45,12 +47,10 @@ public:
         largest_length_ = std::sqrt(sq_length);
     }
 
-    /// Makes a block of queries ready. @param rows padded to filter_block queries
+    /// Makes a block of queries ready. @param rows padded to filter_block queries; have to stay
     void prepare(std::span<const float> rows, const std::vector<double>& sq_lengths, double max_sq_distance,
                  Block& block) const {
-        block.rows.assign(rows.begin(), rows.end());
-        block.limits.resize(filter_block);
-        block.rounding.resize(filter_block);
+        block.rows = rows;
         for (std::size_t i = 0; i < filter_block; ++i) {
             const double size = largest_bias_ + std::sqrt(sq_lengths[i]) * largest_length_ + sq_lengths[i];
             block.rounding[i] = 2 * double(dimension_ + 8) * (0x1p-24 * size + 0x1p-126);

@@ -31,8 +31,8 @@ inline constexpr std::size_t max_matches = std::size_t(1) << 26;
            index.dimension(), descriptors.dimension());
     const std::size_t blocks = (descriptors.size() + detail::filter_block - 1) / detail::filter_block;
     std::vector<std::vector<Match>> found(blocks);
-    std::vector<detail::BlockMatcher> matchers;
-    while (matchers.size() < pool.size()) matchers.emplace_back(index);
+    std::vector<detail::BlockMatcher> matchers(pool.size());
+    for (detail::BlockMatcher& matcher : matchers) matcher.start(index);
     std::atomic<std::size_t> total = 0;
     pool.for_each(blocks, [&](std::size_t block, unsigned worker) {
         found[block] = matchers[worker].match(descriptors, block * detail::filter_block);
@@ -44,7 +44,7 @@ inline constexpr std::size_t max_matches = std::size_t(1) << 26;
     matches.reserve(total);
     for (std::vector<Match>& part : found) {
         detail::append(matches, part);
-        part = {};
+        part = std::vector<Match>();  // whose memory is not needed twice
     }
     return matches;
 }
@@ -60,8 +60,10 @@ inline constexpr std::size_t max_matches = std::size_t(1) << 26;
 /// @brief Of the matches of match() the nearest word of each group, with the weight 1.
 [[nodiscard]] inline std::vector<Match> nearest_only(const std::vector<Match>& matches) {
     std::vector<Match> nearest;
-    for (const Match& match : matches)
-        if (match.nearest) nearest.push_back({match.feature, match.word, 1.0f, true});
+    for (Match match : matches) {
+        match.weight = 1;
+        if (match.nearest) nearest.push_back(match);
+    }
     return nearest;
 }
 

@@ -22,8 +22,12 @@ namespace ism::detail {
 /// Matches one block of descriptors after another, in memory of its own.
 class BlockMatcher {
 public:
-    explicit BlockMatcher(const WordIndex& index)
-        : index_(&index), queries_(index), of_group_(index.group_count()) {}
+    /// Makes it ready for an index, which has to stay.
+    void start(const WordIndex& index) {
+        index_ = &index;
+        queries_.start(index);
+        of_group_ = std::vector<OfGroup>(index.group_count());
+    }
 
     /// The matches of the descriptors from `first` on, by descriptor, then by word.
     [[nodiscard]] std::vector<Match> match(const Descriptors<float>& descriptors, std::size_t first) {
@@ -69,14 +73,14 @@ private:
         std::array<std::size_t, filter_block + 1> begin{};
         for (const Hit& hit : hits_) ++begin[hit.query + 1];
         for (std::size_t i = 0; i < filter_block; ++i) begin[i + 1] += begin[i];
-        sorted_.resize(hits_.size());
+        std::vector<Hit> sorted(hits_.size());
         auto next = begin;
-        for (const Hit& hit : hits_) sorted_[next[hit.query]++] = hit;
+        for (const Hit& hit : hits_) sorted[next[hit.query]++] = hit;
 
         std::vector<Match> matches;
         matches.reserve(hits_.size());
         for (std::size_t i = 0; i < queries_.count(); ++i) {
-            const Hit *const first = sorted_.data() + begin[i], *const end = sorted_.data() + begin[i + 1];
+            const Hit *const first = sorted.data() + begin[i], *const end = sorted.data() + begin[i + 1];
             for (const Hit* hit = first; hit < end; ++hit) {
                 OfGroup& group = of_group_[index_->group(hit->word)];
                 ++group.count;
@@ -85,20 +89,21 @@ private:
             }
             for (const Hit* hit = first; hit < end; ++hit) {
                 const OfGroup& group = of_group_[index_->group(hit->word)];
-                matches.push_back({std::uint32_t(queries_.first() + i), hit->word, 1.0f / float(group.count),
-                                   group.nearest == hit->word});
+                const Match match{std::uint32_t(queries_.first() + i), hit->word, 1.0f / float(group.count),
+                                  group.nearest == hit->word};
+                matches.push_back(match);
             }
             for (const Hit* hit = first; hit < end; ++hit) of_group_[index_->group(hit->word)] = {};
         }
         return matches;
     }
 
-    const WordIndex* index_;
+    const WordIndex* index_ = nullptr;
     QueryBlock queries_;
     FloatFilter::Block float_block_;
     ByteFilter::Block byte_block_;
-    std::vector<Hit> hits_, sorted_;  // by 64 words and descriptor; by descriptor
-    std::vector<OfGroup> of_group_;   // empty between descriptors
+    std::vector<Hit> hits_;          // by 64 words and descriptor
+    std::vector<OfGroup> of_group_;  // empty between descriptors
 };
 
 }  // namespace ism::detail

@@ -34,8 +34,9 @@ public:
           each_(each),
           left_out_(left_out),
           left_out_end_(left_out_end),
-          queries_(index),
-          near_(filter_block * each) {}
+          near_(filter_block * each) {
+        queries_.start(index);
+    }
 
     /// Those of the descriptors from `first` on, `each` after `each`.
     [[nodiscard]] std::span<const NearWord> find(const Descriptors<float>& descriptors, std::size_t first) {

@@ -17,8 +17,12 @@ namespace ism::detail {
 /// A block of descriptors as filters want them. One block is loaded after another, into the same memory.
 class QueryBlock {
 public:
-    explicit QueryBlock(const WordIndex& index)
-        : index_(&index), rows_(filter_block * index.dimension()), sq_lengths_(filter_block) {}
+    /// Makes it ready for an index, which has to stay.
+    void start(const WordIndex& index) {
+        index_ = &index;
+        rows_ = std::vector<float>(filter_block * index.dimension());
+        sq_lengths_ = std::vector<double>(filter_block);
+    }
 
     /// The descriptors from `first` on. Rows that are missing or not finite reach nothing; they hold what
     /// another row holds, so that they do not widen the range.
@@ -61,7 +65,7 @@ public:
     }
 
 private:
-    const WordIndex* index_;
+    const WordIndex* index_ = nullptr;
     std::size_t first_ = 0, count_ = 0;
     std::vector<float> rows_;
     std::vector<double> sq_lengths_;

@@ -93,8 +93,8 @@ public:
 private:
     /// Groups by number of those that have words.
     void number_groups() {
-        std::vector<detail::Ranked> order;
-        for (std::uint32_t word = 0; word < size(); ++word) order.push_back({groups_[word], word});
+        std::vector<detail::Ranked> order(size());
+        for (std::uint32_t word = 0; word < size(); ++word) order[word] = {groups_[word], word};
         detail::sort_ranked(order.data(), order.size());
         for (std::size_t i = 0; i < order.size(); ++i) {
             group_count_ += i == 0 || order[i].key != order[i - 1].key;

@@ -22,7 +22,7 @@ requires std::is_arithmetic_v<T>
 class AlignedVector {
 public:
     AlignedVector() = default;
-    explicit AlignedVector(std::size_t size) { resize(size); }
+    explicit AlignedVector(std::size_t size) : lines_((size + in_line - 1) / in_line) {}
 
     /// @brief Those that were asked for and what fills the last line.
     [[nodiscard]] std::size_t size() const { return lines_.size() * in_line; }
@@ -31,8 +31,10 @@ public:
     [[nodiscard]] T& operator[](std::size_t i) { return data()[i]; }
     [[nodiscard]] const T& operator[](std::size_t i) const { return data()[i]; }
 
-    /// @brief Room for so many. The first ones stay; those in new lines are 0.
-    void resize(std::size_t size) { lines_.resize((size + in_line - 1) / in_line); }
+    /// @brief Room for at least so many. Where there is too little, all become 0.
+    void make_room(std::size_t size) {
+        if (this->size() < size) *this = AlignedVector(size);
+    }
 
 private:
     static constexpr std::size_t in_line = sizeof(CacheLine) / sizeof(T);

@@ -21,10 +21,17 @@ public:
     Function() = default;
     template <std::invocable<Arguments...> F>
     requires(!std::same_as<F, Function>) Function(F function)
-        : function_(Shared<void>::make<F>(std::move(function))),
-          call_([](void* what, Arguments... arguments) -> R {
-              return (*static_cast<F*>(what))(std::forward<Arguments>(arguments)...);
-          }) {}
+        : function_(Shared<void>::make<F>(std::move(function))), call_(call<F>) {}
+
+    /// @brief Calls an F that is made in place, of these values: it is never moved.
+    template <std::invocable<Arguments...> F, class... Values>
+    requires std::constructible_from<F, Values...>
+    [[nodiscard]] static Function make(Values&&... values) {
+        Function function;
+        function.function_ = Shared<void>::make<F>(std::forward<Values>(values)...);
+        function.call_ = call<F>;
+        return function;
+    }
 
     [[nodiscard]] explicit operator bool() const { return call_ != nullptr; }
     /// @throws Error where there is nothing to call, and what the call throws.
@@ -34,6 +41,11 @@ public:
     }
 
 private:
+    template <class F>
+    static R call(void* what, Arguments... arguments) {
+        return (*static_cast<F*>(what))(std::forward<Arguments>(arguments)...);
+    }
+
     Shared<void> function_;
     R (*call_)(void* what, Arguments... arguments) = nullptr;
 };

@@ -8,14 +8,20 @@
 
 #include "ism/core/callable.hpp"
 
-/// For each type of values these cost a compiler a third of what std::vector::insert(), std::any_of() and
-/// std::erase_if() do.
+/// For each type of values these cost a compiler a third of what std::vector::insert() and resize(),
+/// std::any_of() and std::erase_if() do.
 namespace ism::detail {
 
 /// Adds values to the end of a list.
 template <class T>
 void append(std::vector<T>& list, const std::vector<T>& values) {
     for (const T& value : values) list.push_back(value);
+}
+
+/// Room for at least so many values. Where there is too little, all become new.
+template <class T>
+void make_room(std::vector<T>& list, std::size_t count) {
+    if (list.size() < count) list = std::vector<T>(count);
 }
 
 /// Drops all values but the first `count`.

@@ -33,7 +33,7 @@ public:
     /// @brief A pool of `threads` threads, the calling one included (0 = all hardware threads). They start
     /// with the first loop that has work for them.
     /// @throws Error for more than max_threads.
-    explicit ThreadPool(unsigned threads = 1) : size_(thread_count(threads)) {}
+    explicit ThreadPool(unsigned threads = 1) : size_(thread_count(threads)), others_(size_ - 1) {}
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
     ~ThreadPool() {
@@ -41,7 +41,8 @@ public:
         call_ = nullptr;
         round_.fetch_add(1);
         round_.notify_all();
-        for (std::thread& other : others_) other.join();
+        for (std::thread& other : others_)
+            if (other.joinable()) other.join();
     }
 
     [[nodiscard]] unsigned size() const { return size_; }
@@ -90,8 +91,9 @@ private:
         next_ = 0;
         error_ = nullptr;
         error_at_ = count;
-        for (auto worker = unsigned(others_.size() + 1); worker < size_; ++worker)
-            others_.push_back(std::thread([this, worker, round = round_.load()] { serve(worker, round); }));
+        for (unsigned worker = 1; worker < size_; ++worker)
+            if (std::thread& other = others_[worker - 1]; !other.joinable())
+                other = std::thread([this, worker, round = round_.load()] { serve(worker, round); });
         working_ = size_ - 1;
         round_.fetch_add(1);
         round_.notify_all();

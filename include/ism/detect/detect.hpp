@@ -22,7 +22,7 @@ public:
     /// @param threads  that work on a frame (0 = all hardware threads)
     template <Detector D, Descriptor Desc>
     explicit FrameDetector(const TypedModel<D, Desc>& model, unsigned threads = 0)
-        : FrameDetector(model, {AnyExtractor(model.extractor())}, threads) {}
+        : FrameDetector(model, AnyExtractor(model.extractor()), threads) {}
     template <Detector D, Descriptor Desc>
     explicit FrameDetector(const TypedModel<D, Desc>&& model, unsigned threads = 0) = delete;
 
@@ -51,6 +51,9 @@ public:
     }
 
 private:
+    FrameDetector(const Model& model, const AnyExtractor& only, unsigned threads)
+        : pool_(threads), matcher_(model, {&only, 1}, pool_) {}
+
     ThreadPool pool_;
     FrameMatcher matcher_;
 };

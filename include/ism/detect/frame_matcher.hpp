@@ -4,12 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/codebook/match.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/lists.hpp"
+#include "ism/core/shared.hpp"
 #include "ism/core/stopwatch.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/scene.hpp"
@@ -56,7 +58,7 @@ public:
     /// @param extractors  one for each channel of the model
     /// @param pool        works on a frame; has to stay as long as this and its scenes
     /// @throws Error where an extractor is not that of its channel.
-    FrameMatcher(const Model& model, const std::vector<AnyExtractor>& extractors, ThreadPool& pool)
+    FrameMatcher(const Model& model, std::span<const AnyExtractor> extractors, ThreadPool& pool)
         : model_(model), pool_(pool) {
         expect(extractors.size() == model.channels.size(), "detection: extractors, one a channel",
                model.channels.size(), extractors.size());
@@ -67,11 +69,15 @@ public:
                        given.dimension == wanted.dimension,
                    "detection: features of the model", lazy_text(wanted.detector, ", ", wanted.descriptor),
                    lazy_text(given.detector, ", ", given.descriptor));
-            channels_.push_back({extractors[c].start(pool), WordIndex(model.channels[c].codebook),
+            channels_.push_back({extractors[c].start(pool),
+                                 Shared<const WordIndex>::make(model.channels[c].codebook),
                                  static_cast<std::uint32_t>(words), model.channels[c].neighbours});
             words += model.channels[c].codebook.size();
         }
     }
+
+    FrameMatcher(const Model& model, const std::vector<AnyExtractor>& extractors, ThreadPool& pool)
+        : FrameMatcher(model, std::span<const AnyExtractor>(extractors), pool) {}
 
     /// @brief The model that frames are matched to.
     [[nodiscard]] const Model& model() const { return model_; }
@@ -89,7 +95,7 @@ public:
             scene.extract_ms += watch.lap_ms();
             const auto first = static_cast<std::uint32_t>(scene.features.size());
             detail::append(scene.features, found.features);
-            for (Match match : match_words(channel.words, found.descriptors, channel.neighbours, pool_)) {
+            for (Match match : match_words(*channel.words, found.descriptors, channel.neighbours, pool_)) {
                 match.feature += first, match.word += channel.first_word;
                 scene.matches.push_back(match);
             }
@@ -102,7 +108,7 @@ public:
 private:
     struct Channel {
         ExtractFeatures extract;
-        WordIndex words;
+        Shared<const WordIndex> words;
         std::uint32_t first_word;
         std::size_t neighbours;
     };

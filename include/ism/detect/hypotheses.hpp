@@ -23,12 +23,15 @@
 namespace ism {
 
 /// @brief The value below which half of the weight lies; NaN without weight.
-[[nodiscard]] inline double weighted_median(std::vector<std::pair<double, double>> value_and_weight) {
-    detail::sort_by(value_and_weight, [](const auto& v) { return detail::rising(v.first); });
+[[nodiscard]] inline double weighted_median(const std::vector<double>& values,
+                                            const std::vector<double>& weights) {
+    std::vector<detail::Ranked> order(values.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = {detail::rising(values[i]), i};
+    detail::sort_ranked(order.data(), order.size());
     double total = 0, sum = 0;
-    for (const auto& [value, weight] : value_and_weight) total += weight;
-    for (const auto& [value, weight] : value_and_weight)
-        if ((sum += weight) >= total / 2) return value;
+    for (const detail::Ranked& ranked : order) total += weights[ranked.index];
+    for (const detail::Ranked& ranked : order)
+        if ((sum += weights[ranked.index]) >= total / 2) return values[ranked.index];
     return no_depth;
 }
 
@@ -78,13 +81,14 @@ inline double keep_at_depth(std::vector<Support>& window, const Scene& scene, do
         return shapes.occurrence(s.occurrence).class_index != result.class_index;
     });
 
-    std::vector<std::pair<double, double>> depths;
+    std::vector<double> depths, weights;
     for (const Support& s : window) {
         const Feature& f = scene.features[s.feature];
-        if (is_depth(f.depth_m))
-            depths.emplace_back(centre_depth_m(f, shapes.occurrence(s.occurrence)), s.weight);
+        if (!is_depth(f.depth_m)) continue;
+        depths.push_back(centre_depth_m(f, shapes.occurrence(s.occurrence)));
+        weights.push_back(s.weight);
     }
-    result.depth_m = weighted_median(std::move(depths));
+    result.depth_m = weighted_median(depths, weights);
     if (by_depth) result.score *= keep_at_depth(window, scene, result.depth_m);
     double total = 0, x = 0, y = 0, scale = 0, cosine = 0, sine = 0;
     Box around{0, 0, 0, 0};

@@ -92,21 +92,22 @@ inline Detection describe_posed_hypothesis(double /*score*/, std::vector<Support
     result.scale = scale / total;
     result = with_voted_position(std::move(result), scene);
     result.size_m = size / total;
-    std::vector<std::pair<double, double>> left, top, right, bottom;
+    std::vector<double> left, top, right, bottom, weights;
     for (std::size_t i = 0; i < std::min(box_votes, result.support.size()); ++i) {
         const Support& s = result.support[i];
         const TrainingObject& object = shapes.objects[shapes.occurrence(s.occurrence).object];
         const Box box = posed_box(pose_of(s, scene), object.points_m, camera);
         if (!(box.area() > 0)) continue;
-        left.emplace_back(box.x, s.weight), top.emplace_back(box.y, s.weight);
-        right.emplace_back(box.x + box.width, s.weight), bottom.emplace_back(box.y + box.height, s.weight);
+        left.push_back(box.x), top.push_back(box.y);
+        right.push_back(box.x + box.width), bottom.push_back(box.y + box.height);
+        weights.push_back(s.weight);
     }
     if (left.empty()) {
         result.support.clear();  // no object
         return result;
     }
-    const double x = weighted_median(std::move(left)), y = weighted_median(std::move(top));
-    result.box = {x, y, weighted_median(std::move(right)) - x, weighted_median(std::move(bottom)) - y};
+    const double x = weighted_median(left, weights), y = weighted_median(top, weights);
+    result.box = {x, y, weighted_median(right, weights) - x, weighted_median(bottom, weights) - y};
     result.centre = result.box.centre();
     return result;
 }

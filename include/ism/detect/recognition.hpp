@@ -54,7 +54,7 @@ template <Verifier V>
 
 /// From hypotheses on: the same code for every vote space.
 template <Rescorer R, Segmenter S, Verifier V>
-[[nodiscard]] Detections judge_hypotheses(Scene scene, std::vector<Detection> hypotheses,
+[[nodiscard]] Detections judge_hypotheses(Scene&& scene, std::vector<Detection> hypotheses,
                                           const DetectOptions& options, const R& rescorer, const S& segmenter,
                                           const V& verifier, DetectionStats stats) {
     const auto strongest_first = [](const Detection& d) { return falling(d.score); };
@@ -84,15 +84,18 @@ template <Rescorer R, Segmenter S, Verifier V>
     while (!result.objects.empty() &&
            result.objects.back().score < options.min_relative_score * result.objects.front().score)
         result.objects.pop_back();
-    if (options.min_probability > 0)
-        drop_if(result.objects, [&](const Detection& object) {
+    if (options.min_probability > 0) {
+        std::vector<Detection> told;
+        for (Detection& object : result.objects) {
             expect(!std::isnan(object.probability), "DetectOptions::min_probability",
                    "0 where votes alone judge, or the model knows no probabilities", options.min_probability);
-            if (object.probability >= options.min_probability) return false;
-            if (!result.next_best || object.probability > result.next_best->probability)
-                result.next_best = object;
-            return true;
-        });
+            if (object.probability >= options.min_probability)
+                told.push_back(std::move(object));
+            else if (!result.next_best || object.probability > result.next_best->probability)
+                result.next_best = std::move(object);
+        }
+        result.objects = std::move(told);
+    }
     stats.verify_ms = watch.lap_ms();
     if (!masks_first) segment(result.objects);
     result.features = std::move(scene.features);

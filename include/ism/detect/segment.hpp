@@ -6,7 +6,6 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "ism/core/error.hpp"
@@ -117,19 +116,20 @@ inline Segmentation PatchSegmenter::segment(const Detection& hypothesis, const S
             }
     }
 
-    Segmentation result{.x = left, .y = top, .figure = {}, .ground = {}, .mask = Mask(width, height)};
-    if (step == 1) {
-        result.figure = std::move(figure), result.ground = std::move(ground);
-    } else {
-        result.figure = GrayImage(width, height), result.ground = GrayImage(width, height);
+    const auto interpolated = [&](const GrayImage& cells) {
+        GrayImage image(width, height);
         const float to_cell = 1.0f / static_cast<float>(step);
         for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                const float cx = static_cast<float>(x) * to_cell, cy = static_cast<float>(y) * to_cell;
-                result.figure(x, y) = sample_bilinear(figure, cx, cy);
-                result.ground(x, y) = sample_bilinear(ground, cx, cy);
-            }
-    }
+            for (int x = 0; x < width; ++x)
+                image(x, y) =
+                    sample_bilinear(cells, static_cast<float>(x) * to_cell, static_cast<float>(y) * to_cell);
+        return image;
+    };
+    Segmentation result{.x = left,
+                        .y = top,
+                        .figure = interpolated(figure),
+                        .ground = interpolated(ground),
+                        .mask = Mask(width, height)};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) result.mask(x, y) = result.figure(x, y) > result.ground(x, y);
     return result;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -131,7 +132,6 @@ struct Mdl {
     [[nodiscard]] std::vector<Verified> verify(const std::vector<Detection>& hypotheses) const {
         const Savings all = savings(hypotheses);
         std::vector<double> gain = all.own;
-        std::vector<bool> open(hypotheses.size(), true);
         const auto worth_of = [&](std::size_t i) {
             return hypotheses[i].score * gain[i] / std::max(all.own[i], 1e-12);
         };
@@ -139,11 +139,10 @@ struct Mdl {
         while (true) {
             std::size_t best = hypotheses.size();
             for (std::size_t i = 0; i < hypotheses.size(); ++i)
-                if (open[i] && gain[i] > 0 && (best == hypotheses.size() || worth_of(i) > worth_of(best)))
-                    best = i;
+                if (gain[i] > 0 && (best == hypotheses.size() || worth_of(i) > worth_of(best))) best = i;
             if (best == hypotheses.size()) return kept;
             kept.push_back({best, worth_of(best)});
-            open[best] = false;
+            gain[best] = -std::numeric_limits<double>::infinity();
             for (std::size_t i = 0; i < hypotheses.size(); ++i)
                 gain[i] -= all.cost[best * hypotheses.size() + i];
         }

@@ -22,6 +22,8 @@ namespace detail {
 /// Descriptors of any scalar as floats.
 template <Detector D, Descriptor Desc>
 struct FloatFeatures {
+    FloatFeatures(const Extractor<D, Desc>& features, ThreadPool& pool) : extractor(features, pool) {}
+
     FeatureExtractor<D, Desc> extractor;
     FeatureSet<float> floats = {};  // where descriptors are no floats
 
@@ -49,8 +51,8 @@ public:
     AnyExtractor(const Extractor<D, Desc>& extractor)
         : settings_(settings_of(extractor)),
           start_([extractor](const ExtractOptions& options, ThreadPool& pool) -> ExtractFeatures {
-              return detail::FloatFeatures<D, Desc>{
-                  {{extractor.detector, extractor.descriptor, options}, pool}};
+              return ExtractFeatures::make<detail::FloatFeatures<D, Desc>>(
+                  Extractor<D, Desc>{extractor.detector, extractor.descriptor, options}, pool);
           }) {}
 
     [[nodiscard]] const FeatureSettings& settings() const { return settings_; }

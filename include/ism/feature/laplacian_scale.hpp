@@ -87,8 +87,9 @@ inline void keep_maxima(const ScaleSpace& space, const ScaleSelection& selection
             const auto at = characteristic_level(space, octave, float(level) + selection.scale_offset,
                                                  tolerance, px, py, selection.least_laplacian);
             if (!at) continue;
-            found.push_back(
-                {.x = px * step, .y = py * step, .scale = space.sigma(octave, *at), .strength = top.value});
+            const Feature feature{
+                .x = px * step, .y = py * step, .scale = space.sigma(octave, *at), .strength = top.value};
+            found.push_back(feature);
         }
 }
 

@@ -21,7 +21,7 @@ public:
     void hold_all(int planes, int width, int height) {
         set_size(planes, width, height);
         capacity_ = height;
-        pixels_.resize(plane() * std::size_t(planes));
+        pixels_.make_room(plane() * std::size_t(planes));
     }
 
     /// Holds some rows, for which slide() makes room; fitting memory is reused. Views are offset by the rows

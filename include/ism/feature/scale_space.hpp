@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "ism/core/image.hpp"
 #include "ism/feature/blur.hpp"
@@ -182,7 +181,6 @@ private:
         if (all_bytes > double(max_bytes))
             for (double rest = all_bytes; banded_ < count && rest > double(max_bytes) / 2; ++banded_)
                 rest -= bytes[std::size_t(banded_)];
-        if (octaves_.size() < std::size_t(count)) octaves_.resize(std::size_t(count));
         for (int i = 0; i < count; ++i) {
             const auto hold = i < banded_ ? &detail::RowWindow::hold_some : &detail::RowWindow::hold_all;
             Octave& o = octaves_[std::size_t(i)];
@@ -270,7 +268,7 @@ private:
     ScaleSpaceOptions options_;
     ImageView<const float> image_;
     int octave_count_ = 0, banded_ = 0, rows_at_once_ = 0;
-    std::vector<Octave> octaves_;
+    std::array<Octave, max_scale_octaves> octaves_;
 };
 
 }  // namespace ism

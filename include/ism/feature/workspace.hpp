@@ -13,6 +13,7 @@
 #include "ism/core/aligned.hpp"
 #include "ism/core/callable.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/core/shared.hpp"
 #include "ism/core/thread_pool.hpp"
@@ -65,13 +66,13 @@ public:
     /// valid until that worker's next call.
     [[nodiscard]] std::span<float> rows(unsigned worker, std::size_t count) {
         AlignedVector<float>& own = rows_[worker];
-        if (own.size() < count) own.resize(count);
+        own.make_room(count);
         return {own.data(), count};
     }
 
     /// @brief An empty list for each worker of the pool, valid until the next call.
     [[nodiscard]] std::vector<std::vector<Feature>>& lists() {
-        lists_.resize(threads());
+        detail::make_room(lists_, threads());
         for (std::vector<Feature>& list : lists_) list.clear();
         return lists_;
     }
@@ -79,13 +80,13 @@ public:
     /// @brief The scratch buffer `use` with `count` numbers, uninitialised; valid until the next call for it.
     [[nodiscard]] std::span<std::uint32_t> numbers(Scratch use, std::size_t count) {
         std::vector<std::uint32_t>& own = numbers_[std::size_t(use)];
-        if (own.size() < count) own.resize(count);
+        detail::make_room(own, count);
         return {own.data(), count};
     }
 
     /// @brief Scratch to sort `count` features, uninitialised; valid until the next call.
     [[nodiscard]] std::span<detail::Ranked> ranked(std::size_t count) {
-        if (ranked_.size() < count) ranked_.resize(count);
+        detail::make_room(ranked_, count);
         return {ranked_.data(), count};
     }
 

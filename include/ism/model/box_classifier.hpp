@@ -72,14 +72,14 @@ public:
     WordMap() = default;
     /// @param words  of the model, all channels together
     WordMap(const std::vector<Feature>& features, const std::vector<Match>& matches, std::size_t words)
-        : words_(words) {
+        : words_(words), places_(matches.size()) {
         std::vector<detail::Ranked> by_word(matches.size());
         for (std::uint32_t i = 0; i < by_word.size(); ++i) by_word[i] = {matches[i].word, i};
         detail::sort_ranked(by_word.data(), by_word.size());
-        for (const detail::Ranked& one : by_word) {
-            const Match& match = matches[one.index];
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Match& match = matches[by_word[i].index];
             const Feature& f = features[match.feature];
-            places_.push_back({f.x, f.y, match.word, match.weight});
+            places_[i] = {f.x, f.y, match.word, match.weight};
         }
     }
 
@@ -90,8 +90,11 @@ public:
         std::array<std::vector<SparseEntry>, BoxClassifier::cells> cells;
         const auto count = [&](std::size_t cell, const Place& place) {
             const auto bin = static_cast<std::uint32_t>(cell * words_ + place.word);
-            if (cells[cell].empty() || cells[cell].back().index != bin) cells[cell].push_back({bin, 0});
-            cells[cell].back().value += place.weight;
+            const SparseEntry entry{bin, place.weight};
+            if (!cells[cell].empty() && cells[cell].back().index == bin)
+                cells[cell].back().value += place.weight;
+            else
+                cells[cell].push_back(entry);
         };
         double total = 0;
         for (const Place& place : places_) {

@@ -104,10 +104,10 @@ namespace ism {
 }
 
 /// @brief Indices of the features on a mask, in order.
-[[nodiscard]] inline std::vector<std::size_t> features_on(const Mask& mask,
-                                                          const std::vector<Feature>& features) {
-    std::vector<std::size_t> on;
-    for (std::size_t i = 0; i < features.size(); ++i) {
+[[nodiscard]] inline std::vector<std::uint32_t> features_on(const Mask& mask,
+                                                            const std::vector<Feature>& features) {
+    std::vector<std::uint32_t> on;
+    for (std::uint32_t i = 0; i < features.size(); ++i) {
         const int x = static_cast<int>(std::lround(features[i].x)),
                   y = static_cast<int>(std::lround(features[i].y));
         if (mask.contains(x, y) && mask(x, y) != 0) on.push_back(i);
@@ -116,13 +116,13 @@ namespace ism {
 }
 
 /// @brief The `most` strongest of some features, in order.
-[[nodiscard]] inline std::vector<std::size_t> strongest(std::vector<std::size_t> chosen,
-                                                        const std::vector<Feature>& features,
-                                                        std::size_t most) {
+[[nodiscard]] inline std::vector<std::uint32_t> strongest(std::vector<std::uint32_t> chosen,
+                                                          const std::vector<Feature>& features,
+                                                          std::size_t most) {
     if (chosen.size() <= most) return chosen;
-    detail::sort_by(chosen, [&](std::size_t i) { return detail::falling(features[i].strength); });
-    chosen.resize(most);
-    detail::sort_by(chosen, [](std::size_t i) { return i; });
+    detail::sort_by(chosen, [&](std::uint32_t i) { return detail::falling(features[i].strength); });
+    detail::keep_first(chosen, most);
+    detail::sort_by(chosen, [](std::uint32_t i) { return i; });
     return chosen;
 }
 

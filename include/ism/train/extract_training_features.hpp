@@ -91,11 +91,11 @@ private:
         const Placement lies{object.box.centre(), std::sqrt(object.box.area()) / reference_size_px, 0};
         for (std::size_t c = 0; c < view.channels.size(); ++c) {
             const auto& [features, descriptors] = view.channels[c];
-            const std::vector<std::size_t> on = features_on(mask, features);
-            const std::vector<std::size_t> used = strongest(on, features, most);
+            const std::vector<std::uint32_t> on = features_on(mask, features);
+            const std::vector<std::uint32_t> used = strongest(on, features, most);
             result.summary.features_found += on.size();
             result.summary.features_used += used.size();
-            for (const std::size_t i : used) {
+            for (const std::uint32_t i : used) {
                 Occurrence o = as_occurrence(features[i], lies);
                 o.depth_m = features[i].depth_m - depth_m;
                 o.class_index = object.class_index;
@@ -104,10 +104,11 @@ private:
                 result.samples[c].descriptors.push_back(descriptors.row(i));
             }
         }
-        result.objects.push_back(describe_object(object.label(), mask, image.name));
-        if (image.frame.camera)
-            result.objects.back() = placed_in_space(std::move(result.objects.back()), object.box,
-                                                    object.position_m, depth_m, *image.frame.camera);
+        TrainingObject described = describe_object(object.label(), mask, image.name);
+        result.objects.push_back(image.frame.camera
+                                     ? placed_in_space(std::move(described), object.box, object.position_m,
+                                                       depth_m, *image.frame.camera)
+                                     : std::move(described));
     }
     return result;
 }
@@ -154,7 +155,7 @@ private:
     expect(options.max_features > 0, "TrainingFeatureOptions::max_features", "1 or more", 0);
 
     std::vector<double> sizes_px;
-    std::vector<std::size_t> objects_of(classes, 0), features_of(classes, 0);
+    std::vector<std::uint32_t> objects_of(classes, 0), features_of(classes, 0);
     for (std::size_t i = 0; i < set.size; ++i)
         for (const ObjectLabel& label : set.labels(i)) {
             // What is wrong with a label is said with its image.
@@ -193,14 +194,14 @@ private:
         counter.step();
     });
 
-    TrainingFeatures all{.class_names = {class_names.begin(), class_names.end()},
-                         .category_ids = set.category_ids};
+    TrainingFeatures none{.class_names = {class_names.begin(), class_names.end()},
+                          .category_ids = set.category_ids};
     for (const AnyExtractor& extractor : extractors) {
-        all.settings.push_back(extractor.settings());
-        all.samples.push_back({{}, Descriptors<float>(extractor.settings().dimension)});
+        none.settings.push_back(extractor.settings());
+        none.samples.push_back({{}, Descriptors<float>(extractor.settings().dimension)});
     }
-    all.summary.images = set.size;
-    all = detail::join_images(std::move(all), std::move(parts));
+    none.summary.images = set.size;
+    TrainingFeatures all = detail::join_images(std::move(none), std::move(parts));
     for (const TrainingSamples& channel : all.samples)
         for (const Occurrence& o : channel.occurrences) ++features_of[o.class_index];
     for (std::size_t c = 0; c < classes; ++c)

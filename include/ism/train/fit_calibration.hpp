@@ -84,7 +84,7 @@ struct ScoredExample {
 /// @brief Which half of the training images each view belongs to, 0 or 1: images of a class take turns,
 /// background images too, and a mirror image goes with its image.
 [[nodiscard]] inline std::vector<std::uint8_t> halves_of_views(const TrainingFeatures& features) {
-    std::vector<std::size_t> seen(features.class_names.size() + 1, 0);
+    std::vector<std::uint32_t> seen(features.class_names.size() + 1, 0);
     std::vector<std::uint8_t> half_of_view;
     for (const TrainingView& view : features.views) {
         const std::size_t kind =

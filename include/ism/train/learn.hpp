@@ -59,23 +59,29 @@ namespace detail {
     return model;
 }
 
+/// The words that tell so much of the class.
+[[nodiscard]] inline Model keep_informative(const Model& model, double min_information_gain) {
+    const auto gain = word_information_gain(model.shapes);
+    const double best = *std::max_element(gain.begin(), gain.end());
+    expect(best >= min_information_gain, "training: least information gain",
+           lazy_text("at most that of the best word, ", best), min_information_gain);
+    return keep_words(model, words_worth(gain, min_information_gain));
+}
+
+/// At most so many words.
+[[nodiscard]] inline Model keep_best(const Model& model, const WordSelection& selection, unsigned threads) {
+    const auto worth = selection.worth ? selection.worth(model.shapes, threads)
+                                       : word_information_gain(model.shapes, threads);
+    expect(worth.size() == model.words(), "WordSelection::worth: numbers, one a word", model.words(),
+           worth.size());
+    return keep_words(model, best_words(worth, selection.max_words));
+}
+
 /// The words that the options ask for.
 [[nodiscard]] inline Model select_words(Model model, const WordSelection& selection, unsigned threads) {
-    if (selection.min_information_gain > 0) {
-        const auto gain = word_information_gain(model.shapes);
-        const double best = *std::max_element(gain.begin(), gain.end());
-        expect(best >= selection.min_information_gain, "training: least information gain",
-               lazy_text("at most that of the best word, ", best), selection.min_information_gain);
-        model = keep_words(model, words_worth(gain, selection.min_information_gain));
-    }
-    if (selection.max_words > 0) {
-        const auto worth = selection.worth ? selection.worth(model.shapes, threads)
-                                           : word_information_gain(model.shapes, threads);
-        expect(worth.size() == model.words(), "WordSelection::worth: numbers, one a word", model.words(),
-               worth.size());
-        model = keep_words(model, best_words(worth, selection.max_words));
-    }
-    return model;
+    const double least = selection.min_information_gain;
+    Model informative = least > 0 ? keep_informative(model, least) : std::move(model);
+    return selection.max_words > 0 ? keep_best(informative, selection, threads) : std::move(informative);
 }
 
 }  // namespace detail
@@ -88,8 +94,8 @@ namespace detail {
     check(options);
     expect(!features.objects.empty() && features.feature_count() > 0, "training: objects and features",
            "1 or more", 0);
-    Model model = detail::learn_occurrences(features, options);
-    model = detail::select_words(std::move(model), options.selection, options.threads);
+    Model model = detail::select_words(detail::learn_occurrences(features, options), options.selection,
+                                       options.threads);
     if (features.views.empty() || (!options.box_classifier && !options.calibrate)) return model;
 
     const std::size_t words = model.words(), classes = model.shapes.class_names.size();

@@ -74,8 +74,7 @@ namespace detail {
     std::vector<const TrainingView*> views;
     for (const TrainingView& view : features.views)
         if (!view.pixels.empty()) views.push_back(&view);
-    std::vector<WordIndex> words;
-    for (const Channel& channel : model.channels) words.emplace_back(channel.codebook);
+    const WordIndices words = word_indices(model);
     const std::size_t classes = model.shapes.class_names.size();
     std::vector<std::vector<bool>> left_out;  // by each class
     for (std::uint32_t c = 0; c < classes; ++c) left_out.push_back(left_out_images(views, c, classes));

@@ -15,10 +15,10 @@
 namespace ism {
 
 /// @brief A random part of `count` of the numbers below `total`, in rising order.
-[[nodiscard]] inline std::vector<std::size_t> random_part(std::size_t total, std::size_t count,
-                                                          Random& random) {
-    std::vector<std::size_t> part;
-    for (std::size_t i = 0; i < total && part.size() < count; ++i)
+[[nodiscard]] inline std::vector<std::uint32_t> random_part(std::size_t total, std::size_t count,
+                                                            Random& random) {
+    std::vector<std::uint32_t> part;
+    for (std::uint32_t i = 0; i < total && part.size() < count; ++i)
         if (random.uniform() * double(total - i) < double(count - part.size())) part.push_back(i);
     return part;
 }
@@ -34,17 +34,17 @@ namespace ism {
     Random random(options.seed);
     Codebook codebook(dimension, max_sq_distance);
     for (std::uint32_t group = 0; group < (joint ? 1 : classes); ++group) {
-        std::vector<std::size_t> rows;
-        for (std::size_t i = 0; i < samples.occurrences.size(); ++i)
+        std::vector<std::uint32_t> rows;
+        for (std::uint32_t i = 0; i < samples.occurrences.size(); ++i)
             if (joint || samples.occurrences[i].class_index == group) rows.push_back(i);
         if (rows.size() > options.max_features) {
-            std::vector<std::size_t> part = random_part(rows.size(), options.max_features, random);
-            for (std::size_t& row : part) row = rows[row];
+            std::vector<std::uint32_t> part = random_part(rows.size(), options.max_features, random);
+            for (std::uint32_t& row : part) row = rows[row];
             rows = std::move(part);
         }
         Descriptors<float> chosen(dimension);
         chosen.reserve(rows.size());
-        for (const std::size_t row : rows) chosen.push_back(samples.descriptors.row(row));
+        for (const std::uint32_t row : rows) chosen.push_back(samples.descriptors.row(row));
         add_words(codebook, chosen, options.min_cluster_size, group, threads);
     }
     return codebook;

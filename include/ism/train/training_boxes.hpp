@@ -13,6 +13,7 @@
 #include "ism/core/geometry.hpp"
 #include "ism/core/lists.hpp"
 #include "ism/core/progress.hpp"
+#include "ism/core/shared.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/recognition.hpp"
 #include "ism/model/box_classifier.hpp"
@@ -36,17 +37,26 @@ struct TrainingBox {
 
 namespace detail {
 
+/// The words of a model, made ready for match(), by channel.
+using WordIndices = std::vector<Shared<const WordIndex>>;
+
+[[nodiscard]] inline WordIndices word_indices(const Model& model) {
+    WordIndices words;
+    for (const Channel& channel : model.channels)
+        words.push_back(Shared<const WordIndex>::make(channel.codebook));
+    return words;
+}
+
 /// The features of a training image with their matches to the words of a model.
 [[nodiscard]] inline Scene training_scene(const TrainingView& view, const Model& model,
-                                          const std::vector<WordIndex>& words, const Frame& blank,
-                                          ThreadPool& pool) {
+                                          const WordIndices& words, const Frame& blank, ThreadPool& pool) {
     Scene scene{.frame = blank, .model = model, .pool = pool};
     for (std::size_t c = 0; c < words.size(); ++c) {
         const auto first = static_cast<std::uint32_t>(scene.features.size());
         const auto first_word = static_cast<std::uint32_t>(model.first_word(c));
         const auto& [features, descriptors] = view.channels[c];
         append(scene.features, features);
-        for (Match match : match(words[c], descriptors, pool)) {
+        for (Match match : match(*words[c], descriptors, pool)) {
             match.feature += first, match.word += first_word;
             scene.matches.push_back(match);
         }
@@ -116,8 +126,7 @@ namespace detail {
     if (views == 0) return {};
     const std::size_t images = std::max<std::size_t>(1, features.summary.images);
     const DetectOptions search{.max_candidates = std::max<std::size_t>(3, max_hypotheses / images)};
-    std::vector<WordIndex> words;
-    for (const Channel& channel : model.channels) words.emplace_back(channel.codebook);
+    const detail::WordIndices words = detail::word_indices(model);
     std::vector<std::vector<TrainingBox>> parts(views);
     ProgressCounter counter(progress, "trying on training images", views);
     parallel_for(views, threads, [&](std::size_t v) {

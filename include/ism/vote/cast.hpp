@@ -53,7 +53,7 @@ void sort_by_label(std::vector<Vote<Dimension>>& votes) {
         sort_by(votes, [](const auto& vote) { return vote.label; });
         return;
     }
-    std::vector<std::size_t> next(std::size_t(last) + 2, 0);
+    std::vector<std::uint32_t> next(std::size_t(last) + 2, 0);
     for (const auto& vote : votes) ++next[vote.label + 1];
     for (std::size_t label = 1; label < next.size(); ++label) next[label] += next[label - 1];
     std::vector<Vote<Dimension>> sorted(votes.size());

@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "ism/core/lists.hpp"
+#include "ism/core/order.hpp"
 #include "ism/vote/bandwidth.hpp"
 #include "ism/vote/mode.hpp"
 #include "ism/vote/vote.hpp"
@@ -31,8 +33,7 @@ public:
                                                            const Bandwidth<Dimension>& bandwidth,
                                                            std::size_t max_count, double min_relative_weight,
                                                            bool peaks_only = false) {
-        bins_.clear(), keys_.clear(), cells_.clear();
-        seeds_.clear();
+        bins_.clear(), cells_.clear(), seeds_.clear();
         if (votes.empty()) return seeds_;
         make_windows(votes, bandwidth);
         std::size_t slots = 16;
@@ -55,15 +56,14 @@ private:
     struct Cell {
         std::uint32_t level = 0;
         std::array<double, Dimension> at = {};
+        std::uint64_t key = 0;  ///< stands for the cell: 64 bits are not the same by chance
 
-        /// A hash that stands for the cell: 64 bits are not the same by chance.
-        [[nodiscard]] std::uint64_t key() const {
-            std::uint64_t key = (std::uint64_t(level) + 1) * 0x9e3779b97f4a7c15u;
+        void make_key() {
+            key = (std::uint64_t(level) + 1) * 0x9e3779b97f4a7c15u;
             for (const double part : at) {
                 key = (key ^ std::bit_cast<std::uint64_t>(part + 0.0)) * 0x9e3779b97f4a7c15u;  // no -0
                 key ^= key >> 29;
             }
-            return key;
         }
     };
 
@@ -77,13 +77,14 @@ private:
 
     /// The windows of all levels there are: a few hundred at most.
     void make_windows(std::span<const Vote<Dimension>> votes, const Bandwidth<Dimension>& bandwidth) {
-        const auto [low, high] = std::minmax_element(
-            votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.scale < b.scale; });
-        lowest_ = level_of(low->scale);
-        per_window_.clear();
-        for (std::uint32_t level = lowest_; level <= level_of(high->scale); ++level) {
-            per_window_.push_back(bandwidth.at(middle_of(level)));
-            for (double& value : per_window_.back()) value = std::min(1 / value, 1e200);
+        float low = votes.front().scale, high = low;
+        for (const auto& vote : votes) low = std::min(low, vote.scale), high = std::max(high, vote.scale);
+        lowest_ = level_of(low);
+        const std::uint32_t levels = level_of(high) - lowest_ + 1;
+        detail::make_room(per_window_, levels);
+        for (std::uint32_t i = 0; i < levels; ++i) {
+            per_window_[i] = bandwidth.at(middle_of(lowest_ + i));
+            for (double& value : per_window_[i]) value = std::min(1 / value, 1e200);
         }
     }
 
@@ -91,7 +92,7 @@ private:
     [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
         const std::size_t mask = bin_at_.size() - 1;
         std::size_t slot = key & mask;
-        while (bin_at_[slot] != none && keys_[bin_at_[slot]] != key) slot = (slot + 1) & mask;
+        while (bin_at_[slot] != none && cells_[bin_at_[slot]].key != key) slot = (slot + 1) & mask;
         return slot;
     }
 
@@ -100,13 +101,13 @@ private:
         Cell cell{level_of(vote.scale)};
         const auto& per_window = per_window_[cell.level - lowest_];
         for (std::size_t k = 0; k < Dimension; ++k) cell.at[k] = std::floor(vote.at[k] * per_window[k]);
-        const std::uint64_t key = cell.key();
-        const std::size_t slot = slot_of(key);
+        cell.make_key();
+        const std::size_t slot = slot_of(cell.key);
         if (bin_at_[slot] == none) {
             bin_at_[slot] = static_cast<std::uint32_t>(bins_.size());
-            keys_.push_back(key);
             cells_.push_back(cell);
-            bins_.push_back({.at = {}, .scale = 0, .score = 0, .label = vote.label});
+            const Mode<Dimension> empty{.at = {}, .scale = 0, .score = 0, .label = vote.label};
+            bins_.push_back(empty);
         }
         return bin_at_[slot];
     }
@@ -119,7 +120,8 @@ private:
             Cell beside = cells_[bin];
             std::size_t steps = n;
             for (double& part : beside.at) part += double(steps % 3) - 1, steps /= 3;
-            const std::uint32_t other = bin_at_[slot_of(beside.key())];
+            beside.make_key();
+            const std::uint32_t other = bin_at_[slot_of(beside.key)];
             if (other != none && bins_[other].score > bins_[bin].score) return false;
         }
         return true;
@@ -127,18 +129,18 @@ private:
 
     [[nodiscard]] const std::vector<Mode<Dimension>>& heaviest(std::size_t max_count,
                                                                double min_relative_weight, bool peaks_only) {
-        order_.clear();
-        for (std::uint32_t i = 0; i < bins_.size(); ++i)
-            if (!peaks_only || is_peak(i)) order_.push_back(i);
-        const std::size_t count = std::min(max_count, order_.size());
-        std::partial_sort(order_.begin(), order_.begin() + std::ptrdiff_t(count), order_.end(),
-                          [&](std::uint32_t a, std::uint32_t b) {
-                              return bins_[a].score > bins_[b].score ||
-                                     (bins_[a].score == bins_[b].score && a < b);
-                          });
-        for (std::size_t i = 0; i < count; ++i) {
-            Mode<Dimension> bin = bins_[order_[i]];
-            if (!(bin.score > 0) || bin.score < min_relative_weight * bins_[order_[0]].score) break;
+        double most = 0;
+        for (const Mode<Dimension>& bin : bins_) most = std::max(most, bin.score);
+        detail::make_room(order_, bins_.size());
+        std::size_t count = 0;
+        for (std::uint32_t i = 0; i < bins_.size(); ++i) {
+            const double score = bins_[i].score;
+            if (score > 0 && score >= min_relative_weight * most && (!peaks_only || is_peak(i)))
+                order_[count++] = {detail::falling(score), i};
+        }
+        detail::sort_ranked(order_.data(), count);
+        for (std::size_t i = 0; i < std::min(max_count, count); ++i) {
+            Mode<Dimension> bin = bins_[order_[i].index];
             for (double& value : bin.at) value /= bin.score;
             bin.scale /= bin.score;
             seeds_.push_back(bin);
@@ -148,8 +150,8 @@ private:
 
     std::uint32_t lowest_ = 0;
     std::vector<std::array<double, Dimension>> per_window_;
-    std::vector<std::uint32_t> bin_at_, order_;
-    std::vector<std::uint64_t> keys_;
+    std::vector<std::uint32_t> bin_at_;
+    std::vector<detail::Ranked> order_;
     std::vector<Cell> cells_;
     std::vector<Mode<Dimension>> bins_, seeds_;
 };

@@ -12,6 +12,7 @@
 
 #include "ism/core/aligned.hpp"
 #include "ism/core/callable.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/vote/bandwidth.hpp"
 #include "ism/vote/cell_grid.hpp"
@@ -40,10 +41,10 @@ public:
         bandwidth_ = bandwidth;
         size_ = votes.size();
         stride_ = size_ + padding;
-        columns_.resize((Dimension + 2) * stride_);
-        order_.resize(size_);
+        columns_.make_room((Dimension + 2) * stride_);
+        detail::make_room(order_, size_);
         choose_cells(votes);
-        cell_of_.resize(size_);
+        detail::make_room(cell_of_, size_);
         first_.assign(cells_.size() + 2, 0);
         for (std::size_t i = 0; i < size_; ++i) {
             cell_of_[i] = static_cast<std::uint32_t>(cells_.cell(first_axes(votes[i].at)));
