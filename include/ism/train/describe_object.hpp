@@ -13,6 +13,7 @@
 #include "ism/core/camera.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/geometry.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/core/vec3.hpp"
 #include "ism/feature/feature.hpp"
