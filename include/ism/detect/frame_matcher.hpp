@@ -76,6 +76,7 @@ public:
         }
     }
 
+    /// @brief The same of a list, which may be written in braces.
     FrameMatcher(const Model& model, const std::vector<AnyExtractor>& extractors, ThreadPool& pool)
         : FrameMatcher(model, std::span<const AnyExtractor>(extractors), pool) {}
 
