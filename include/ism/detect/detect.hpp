@@ -51,8 +51,8 @@ public:
     }
 
 private:
-    FrameDetector(const Model& model, const AnyExtractor& only, unsigned threads)
-        : pool_(threads), matcher_(model, {&only, 1}, pool_) {}
+    FrameDetector(const Model& model, const AnyExtractor& extractor, unsigned threads)
+        : pool_(threads), matcher_(model, {&extractor, 1}, pool_) {}
 
     ThreadPool pool_;
     FrameMatcher matcher_;

@@ -59,7 +59,7 @@ namespace detail {
     return model;
 }
 
-/// The words that tell so much of the class.
+/// Keeps the words of at least so much information gain about the class.
 [[nodiscard]] inline Model keep_informative(const Model& model, double min_information_gain) {
     const auto gain = word_information_gain(model.shapes);
     const double best = *std::max_element(gain.begin(), gain.end());
@@ -68,7 +68,7 @@ namespace detail {
     return keep_words(model, words_worth(gain, min_information_gain));
 }
 
-/// At most so many words.
+/// Keeps the `max_words` words of most worth.
 [[nodiscard]] inline Model keep_best(const Model& model, const WordSelection& selection, unsigned threads) {
     const auto worth = selection.worth ? selection.worth(model.shapes, threads)
                                        : word_information_gain(model.shapes, threads);
