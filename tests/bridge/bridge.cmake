@@ -45,6 +45,7 @@ if(OpenCV_FOUND AND Eigen3_FOUND AND PCL_FOUND)
     list(REMOVE_ITEM bridge_flags /usr/include)
     list(TRANSFORM bridge_flags PREPEND "-isystem")
     add_test(NAME bridge/docs COMMAND "${CMAKE_COMMAND}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DFLAGS=${flags};${bridge_flags}"
-             "-DTEXT=${PROJECT_SOURCE_DIR}/docs/bridges.md" "-DSCRATCH=${test_build_dir}/docs_code" -P "${test_dir}/support/check_text_code.cmake")
+             "-DTEXT=${PROJECT_SOURCE_DIR}/docs/bridges.md" "-DSCRATCH=${test_build_dir}/docs_code" "-DINCLUDE=${PROJECT_SOURCE_DIR}/include"
+             -P "${test_dir}/support/check_text_code.cmake")
     set_tests_properties(bridge/docs PROPERTIES LABELS bridge COST 20)
 endif()

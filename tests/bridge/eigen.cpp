@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "ism/adapt/eigen.hpp"
 
+#include <cstdint>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "support/catch.hpp"
 
 #include "ism/adapt/eigen.hpp"  // a second time
+#include "ism/adapt/pixels.hpp"
 
 TEST_CASE("images as arrays of Eigen on the same memory") {
     ism::GrayImage image(4, 3, 0.5f);
@@ -32,6 +35,19 @@ TEST_CASE("arrays of Eigen as views") {
     CHECK((part.width() == 3 && part(0, 1) == 4 && part.stride() == 5));
     const Eigen::Map<ism::EigenImage<float>, 0, Eigen::Stride<5, 2>> every_other(array.data(), 2, 2);
     CHECK_THROWS_WITH(ism::view_of(every_other), "view of an Eigen matrix: inner stride: expected 1, got 2");
+}
+
+TEST_CASE("pixels are seen without a copy where Eigen is included, too") {
+    const std::vector<std::uint8_t> values{1, 2, 3, 4, 5, 6};
+    const ism::RawPixels gray{.data = values.data(),
+                              .width = 3,
+                              .height = 2,
+                              .stride_bytes = 3,
+                              .format = ism::pixel_format::gray8};
+    CHECK(ism::view_of<std::uint8_t>(gray)(2, 1) == 6);
+    const ism::RawPixels color{
+        .data = values.data(), .width = 1, .height = 2, .stride_bytes = 3, .format = ism::pixel_format::rgb8};
+    CHECK(ism::view_of<ism::Rgb>(color)(0, 1).g == 5);
 }
 
 TEST_CASE("positions, rotations and cameras for Eigen and back") {

@@ -55,17 +55,25 @@ requires std::is_arithmetic_v<T>
 template <class T>
 auto eigen_map(const Image<T>&& image) = delete;  // would not stay
 
+/// @brief A matrix or array of Eigen, or a part of one.
+template <class M>
+concept EigenMatrix = requires(const M& matrix) {
+    typename M::Scalar;
+    matrix.derived();
+    matrix.outerStride();
+};
+
 /// @brief A matrix or array of Eigen as a view, without a copy: any whose rows lie one after another in
 /// memory (Eigen::RowMajor), a block too. It has to stay as long as the view.
-template <class Derived>
-[[nodiscard]] auto view_of(const Eigen::DenseBase<Derived>& matrix) {
-    static_assert(bool(Derived::IsRowMajor),
+template <EigenMatrix M>
+[[nodiscard]] auto view_of(const M& matrix) {
+    static_assert(bool(M::IsRowMajor),
                   "an image is a row-major matrix: Eigen::Array<float, Dynamic, Dynamic, RowMajor>");
-    const Derived& pixels = matrix.derived();
+    const auto& pixels = matrix.derived();
     expect(pixels.innerStride() == 1, "view of an Eigen matrix: inner stride", 1,
            (long long)(pixels.innerStride()));
-    return ImageView<const typename Derived::Scalar>(pixels.data(), int(pixels.cols()), int(pixels.rows()),
-                                                     pixels.outerStride());
+    return ImageView<const typename M::Scalar>(pixels.data(), int(pixels.cols()), int(pixels.rows()),
+                                               pixels.outerStride());
 }
 
 /// @brief A position in the camera frame, metres.
