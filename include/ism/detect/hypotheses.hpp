@@ -40,6 +40,11 @@ using DescribeHypothesis = Detection(double score, std::vector<Support> window, 
 
 namespace detail {
 
+/// Strongest first.
+inline void sort_by_score(std::vector<Detection>& detections) {
+    sort_by(detections, [](const Detection& d) { return falling(d.score); });
+}
+
 /// Where the object of a vote lies: by the scale of its feature, or at a depth, as large as in training.
 [[nodiscard]] inline Placement placed_by(const Feature& f, const Occurrence& o, const TrainingObject& object,
                                          const Camera* camera, double depth_m) {
@@ -179,8 +184,7 @@ template <Kernel K, std::size_t Dimension>
     });
     // Described from votes of one depth, some have become weaker than their modes were.
     detail::drop_if(hypotheses, [](const Detection& hypothesis) { return hypothesis.support.empty(); });
-    detail::sort_by(hypotheses,
-                    [](const Detection& hypothesis) { return detail::falling(hypothesis.score); });
+    detail::sort_by_score(hypotheses);
     while (!hypotheses.empty() && hypotheses.back().score < least * hypotheses.front().score)
         hypotheses.pop_back();
     return hypotheses;

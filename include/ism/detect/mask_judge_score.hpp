@@ -14,8 +14,8 @@
 #include "ism/core/error.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/frame_colors.hpp"
-#include "ism/core/order.hpp"
 #include "ism/detect/detection.hpp"
+#include "ism/detect/hypotheses.hpp"
 #include "ism/detect/mask_candidates.hpp"
 #include "ism/detect/mask_cues.hpp"
 #include "ism/detect/metric.hpp"
@@ -122,7 +122,7 @@ inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hyp
     expect(!judge.empty(), "MaskJudgeScore: model", "one of learn_mask_judge()", "one without a judge");
     expect(scene.surface != nullptr, "MaskJudgeScore: vote space", "a space with poses", "another");
     const std::size_t classes = scene.model.shapes.class_names.size();
-    detail::sort_by(hypotheses, [](const Detection& d) { return detail::falling(d.score); });
+    detail::sort_by_score(hypotheses);
     const FrameColors colors(scene.frame);
     const RgbImage& color = colors.image();
     const std::vector<RegionMask> regions = mask_candidates(scene, hypotheses, candidates);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "ism/core/lists.hpp"
-#include "ism/core/order.hpp"
 #include "ism/core/stopwatch.hpp"
 #include "ism/detect/detect_options.hpp"
 #include "ism/detect/detection.hpp"
@@ -57,10 +56,9 @@ template <Rescorer R, Segmenter S, Verifier V>
 [[nodiscard]] Detections judge_hypotheses(Scene&& scene, std::vector<Detection> hypotheses,
                                           const DetectOptions& options, const R& rescorer, const S& segmenter,
                                           const V& verifier, DetectionStats stats) {
-    const auto strongest_first = [](const Detection& d) { return falling(d.score); };
     Stopwatch watch;
     hypotheses = rescorer.rescore(std::move(hypotheses), scene);
-    sort_by(hypotheses, strongest_first);
+    sort_by_score(hypotheses);
     stats.candidates = hypotheses.size();
     keep_first(hypotheses, options.max_hypotheses);
     stats.rescore_ms = watch.lap_ms();
@@ -75,27 +73,23 @@ template <Rescorer R, Segmenter S, Verifier V>
     };
     const bool masks_first = needs_masks(verifier);
     if (masks_first) segment(hypotheses);
+    std::vector<Verified> verified = verifier.verify(hypotheses, scene);
+    sort_by_score(verified);
     Detections result;
-    for (const Verified& verified : verifier.verify(hypotheses, scene)) {
-        result.objects.push_back(std::move(hypotheses[verified.index]));
-        result.objects.back().score = verified.score;
+    Detection* next_best = nullptr;
+    for (const auto& [index, score] : verified) {
+        if (score < options.min_relative_score * verified.front().score) break;
+        Detection& object = hypotheses[index];
+        object.score = score;
+        const bool judged = !std::isnan(object.probability);
+        expect(judged || !(options.min_probability > 0), "DetectOptions::min_probability",
+               "0 where votes alone judge, or the model knows no probabilities", options.min_probability);
+        if (!judged || object.probability >= options.min_probability)
+            result.objects.push_back(std::move(object));
+        else if (next_best == nullptr || object.probability > next_best->probability)
+            next_best = &object;
     }
-    sort_by(result.objects, strongest_first);
-    while (!result.objects.empty() &&
-           result.objects.back().score < options.min_relative_score * result.objects.front().score)
-        result.objects.pop_back();
-    if (options.min_probability > 0) {
-        std::vector<Detection> told;
-        for (Detection& object : result.objects) {
-            expect(!std::isnan(object.probability), "DetectOptions::min_probability",
-                   "0 where votes alone judge, or the model knows no probabilities", options.min_probability);
-            if (object.probability >= options.min_probability)
-                told.push_back(std::move(object));
-            else if (!result.next_best || object.probability > result.next_best->probability)
-                result.next_best = std::move(object);
-        }
-        result.objects = std::move(told);
-    }
+    if (next_best != nullptr) result.next_best = std::move(*next_best);
     stats.verify_ms = watch.lap_ms();
     if (!masks_first) segment(result.objects);
     result.features = std::move(scene.features);

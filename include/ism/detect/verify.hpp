@@ -35,6 +35,11 @@ concept Verifier = std::copyable<V> &&
 
 namespace detail {
 
+/// Strongest first.
+inline void sort_by_score(std::vector<Verified>& verified) {
+    sort_by(verified, [](const Verified& v) { return falling(v.score); });
+}
+
 /// The hypotheses that stay, strongest first, where each gives way to a stronger one that is of the same
 /// object: are_one(stronger, weaker), by index.
 template <class AreOne>
@@ -42,7 +47,7 @@ template <class AreOne>
                                                       const AreOne& are_one) {
     std::vector<Verified> order, kept;
     for (std::size_t i = 0; i < hypotheses.size(); ++i) order.push_back({i, hypotheses[i].score});
-    sort_by(order, [](const Verified& v) { return falling(v.score); });
+    sort_by_score(order);
     for (const Verified& candidate : order)
         if (!any_of(kept, [&](const Verified& stronger) { return are_one(stronger.index, candidate.index); }))
             kept.push_back(candidate);

@@ -94,9 +94,8 @@ struct JudgedRegion {
     add_surface(scene);
     const DetectOptions search = metric_proposal_options();
     const auto votes = cast_votes<Metric>(scene, search.matching, vote_limits(scene, search));
-    auto hypotheses = find_hypotheses<EpanechnikovKernel, Metric::dimension>(
+    const auto hypotheses = find_hypotheses<EpanechnikovKernel, Metric::dimension>(
         scene, votes, default_bandwidth<Metric>(), search, describe_posed_hypothesis);
-    sort_by(hypotheses, [](const Detection& d) { return falling(d.score); });
     std::vector<RegionMask> regions = depth.masks;
     const std::size_t labelled = regions.size();
     for (RegionMask& candidate : mask_candidates(scene, hypotheses, options.candidates))

@@ -31,12 +31,11 @@ template <std::size_t Dimension>
 
 namespace detail {
 
-/// Strongest first, then by label; those behind the `max_count`-th or below `min_relative_score` times the
-/// first dropped.
+/// Strongest first, equal ones in their order; those behind the `max_count`-th or below `min_relative_score`
+/// times the first dropped.
 template <std::size_t Dimension>
 void keep_strongest(std::vector<SupportedMode<Dimension>>& modes, std::size_t max_count,
                     double min_relative_score) {
-    sort_by(modes, [](const auto& mode) { return mode.label; });
     sort_by(modes, [](const auto& mode) { return falling(mode.score); });
     while (!modes.empty() &&
            (modes.size() > max_count || modes.back().score < min_relative_score * modes.front().score))
