@@ -29,8 +29,8 @@ if(WAY STREQUAL "include_path")
     run()
 
 elseif(WAY STREQUAL "single_header")
-    # One header, the same whenever and wherever it is made, stands for ism/ism.hpp and all it includes. Two sources that both
-    # detect, all of it for this very processor.
+    # One header, the same whenever and wherever it is made, stands for ism/ism.hpp and all it includes. Two sources that
+    # include it, all for this very processor.
     file(MAKE_DIRECTORY "${SCRATCH}/single/ism" "${SCRATCH}/elsewhere")
     step("make" "${ISM_SOURCE}/scripts/amalgamate" "${SCRATCH}/single/ism/ism.hpp")
     execute_process(COMMAND "${ISM_SOURCE}/scripts/amalgamate" WORKING_DIRECTORY "${SCRATCH}/elsewhere" RESULT_VARIABLE result)

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <cstddef>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "ism/ism.hpp"
 
-bool found_elsewhere(const ism::TypedModel<ism::HessianLaplace, ism::RootSift>& model,
-                     const ism::Frame& frame);  // second.cpp
+std::size_t features_elsewhere(const ism::GrayImage& image);  // second.cpp
 
 int main() {
     std::printf("ism %s\n", ism::version_text);
@@ -24,5 +24,5 @@ int main() {
         ism::train<ism::HessianLaplace, ism::RootSift>(std::vector<std::string>{"pattern"}, images);
     const auto found = ism::detect<ism::Jism>(model, images[0].frame);
     std::printf("%zu words, %zu found\n", model.words(), found.objects.size());
-    return !found.objects.empty() && found_elsewhere(model, images[0].frame) ? 0 : 1;
+    return !found.objects.empty() && features_elsewhere(images[0].frame.gray) > 0 ? 0 : 1;
 }
