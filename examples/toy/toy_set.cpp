@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "toy/noise.hpp"
-#include <nlohmann/json.hpp>
 
 #include "ism/core/thread_pool.hpp"
-#include "ism/dataset/coco.hpp"
 #include "ism/dataset/coco_write.hpp"
 #include "ism/io/png.hpp"
 
@@ -39,38 +38,20 @@ ism::DatasetImage write_picture(const std::filesystem::path& folder, const std::
         image.objects.push_back({.class_index = std::uint32_t(object.class_index),
                                  .box = object.box,
                                  .segmentation = ism::compress_mask(object.mask),
+                                 .instance = std::to_string(object.instance),
                                  .position_m = object.position_m});
     return image;
 }
 
-/// Writes the JSON and adds to each annotation where the toy is, which it is and how much of it is seen.
-ism::Dataset write_truth(const std::filesystem::path& file, std::vector<ism::DatasetImage> images,
-                         const std::vector<std::vector<ToyObject>>& truth) {
-    ism::Dataset set{.class_names = class_names(), .images = std::move(images)};
+/// Writes the labels of these images.
+ism::Dataset write_labels(const std::filesystem::path& file, std::span<const ism::DatasetImage> images) {
+    ism::Dataset set{.source = file, .class_names = class_names(), .images = {images.begin(), images.end()}};
     for (std::size_t i = 0; i < set.class_names.size(); ++i) set.category_ids.push_back(std::int64_t(i) + 1);
     std::int64_t id = 0;
     for (auto& image : set.images)
         for (auto& object : image.objects) object.id = ++id;
     ism::write_dataset(file, set);
-
-    nlohmann::json root =
-        nlohmann::json::parse(ism::detail::read_whole<std::string>(file, std::uintmax_t(1) << 30));
-    std::size_t next = 0;
-    for (const auto& objects : truth)
-        for (const ToyObject& object : objects) {
-            nlohmann::json& record = root["annotations"].at(next++);
-            record["visible"] = object.visible;
-            record["instance"] = object.instance;
-        }
-    std::string text = "{";
-    for (const char* key : {"images", "annotations", "categories"}) {
-        text += std::string(text.size() > 1 ? ",\n" : "\n") + "\"" + key + "\": [";
-        for (std::size_t i = 0; i < root[key].size(); ++i)
-            text += (i == 0 ? "\n" : ",\n") + root[key][i].dump();
-        text += "\n]";
-    }
-    ism::write_file(file, text + "\n}\n");
-    return ism::read_dataset(file);
+    return set;
 }
 
 }  // namespace
@@ -128,8 +109,8 @@ ToySet write_toy_set(const std::filesystem::path& folder, const ToySetOptions& o
     const auto cut = std::ptrdiff_t(train);
     set.train_truth.assign(truth.begin(), truth.begin() + cut),
         set.test_truth.assign(truth.begin() + cut, truth.end());
-    set.train = write_truth(folder / "train.json", {images.begin(), images.begin() + cut}, set.train_truth);
-    set.test = write_truth(folder / "test.json", {images.begin() + cut, images.end()}, set.test_truth);
+    set.train = write_labels(folder / "train.json", std::span(images).first(train));
+    set.test = write_labels(folder / "test.json", std::span(images).subspan(train));
     return set;
 }
 

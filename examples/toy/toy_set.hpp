@@ -37,7 +37,7 @@ struct ToySet {
 
 /// @brief Renders a set of toy pictures into `folder`: train.json with toys alone, test.json with cluttered
 /// tables, both COCO with masks, boxes, depth (`depth_file_name`, `depth_scale`), `camera`, and for each
-/// annotation `position_m` (the toy's middle, camera frame), `visible` and `instance`. No toy is in both. The
+/// annotation `position_m` (the toy's middle, camera frame) and `instance`. No toy is in both. The
 /// same options give the same bytes for any number of threads.
 /// @throws ism::Error for options that cannot be; ism::FileError where a file cannot be written.
 ToySet write_toy_set(const std::filesystem::path& folder, const ToySetOptions& options = {});

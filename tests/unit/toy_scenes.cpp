@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ism/core/thread_pool.hpp"
+#include "ism/dataset/coco.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/io/write_file.hpp"
 
@@ -264,6 +265,12 @@ TEST_CASE("A toy set is the same bytes for one thread and for two, and reads bac
     for (const auto& file : files)
         CHECK(ism::read_text(one.path() / file, 1u << 26) == ism::read_text(two.path() / file, 1u << 26));
 
+    for (const ism::Dataset* written : {&set.train, &set.test}) {
+        const ism::Dataset read = ism::read_dataset(written->source);
+        CHECK(read.class_names == written->class_names);
+        CHECK(read.category_ids == written->category_ids);
+        CHECK(read.images == written->images);
+    }
     REQUIRE(set.train.images.size() == 6);
     REQUIRE(set.test.images.size() == 2);
     CHECK(set.train.images.back().objects.empty());
