@@ -39,6 +39,10 @@ struct ChosenSegmenter {
         return exemplars ? ism::ExemplarSegmenter{}.segment(hypothesis, scene)
                          : ism::PatchSegmenter{}.segment(hypothesis, scene);
     }
+    void judge(ism::Detection& detection, const ism::Scene& scene) const {
+        if (exemplars) ism::ExemplarSegmenter{}.judge(detection, scene);
+    }
+    static constexpr double most_log_odds = ism::ExemplarSegmenter::most_log_odds;
 };
 
 /// A verifier chosen at run time.

@@ -7,7 +7,7 @@
 
 namespace {
 
-ism::Mask random_mask(ism::Random& random) {
+ism::Mask random_whole_mask(ism::Random& random) {
     ism::Mask mask(30, 20);
     const int left = int(random.index(20)), top = int(random.index(12));
     const double share = random.uniform(0.1, 1);
@@ -23,7 +23,7 @@ TEST_CASE("regions overlap as the whole masks do") {
     ism::Random random(2);
     int met = 0;
     for (int round = 0; round < 300; ++round) {
-        const ism::Mask whole_a = random_mask(random), whole_b = random_mask(random);
+        const ism::Mask whole_a = random_whole_mask(random), whole_b = random_whole_mask(random);
         const ism::RegionMask a = ism::region_of(whole_a), b = ism::region_of(whole_b);
         CHECK(area_of(a) == mask_area(whole_a));
         CHECK(mask_iou(full_mask(a, 30, 20), whole_a) == (area_of(a) > 0 ? 1 : 0));

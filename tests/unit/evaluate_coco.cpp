@@ -62,7 +62,7 @@ ism::CocoEvaluation by_coco(const std::vector<ism::TruthObject>& truth,
 }
 
 // what the precision 1 up to a recall of a half is worth: 51 of 101 recalls
-constexpr double half = 51.0 / 101;
+constexpr double half_recall = 51.0 / 101;
 
 }  // namespace
 
@@ -138,9 +138,9 @@ TEST_CASE("COCO's rule matches anew at each overlap") {
         by_coco({truth_of({0, 0, 10, 10}), truth_of({0, 40, 10, 10})},
                 {found_of(.9, {0, 1, 10, 10}), found_of(.8, {0, 0, 10, 9}), found_of(.7, {50, 0, 10, 10})});
     const ism::CocoFigures& figures = result.classes[0].figures;
-    CHECK(figures.ap50 == Approx(half));
-    CHECK(figures.ap75 == Approx(half));
-    CHECK(figures.ap == Approx((7 * half + 2 * half / 2) / 10));
+    CHECK(figures.ap50 == Approx(half_recall));
+    CHECK(figures.ap75 == Approx(half_recall));
+    CHECK(figures.ap == Approx((7 * half_recall + 2 * half_recall / 2) / 10));
     CHECK(figures.recall == Approx(0.45));
     CHECK(result.classes[0].objects == 2);
     CHECK(result.classes[0].detections == 3);
@@ -154,8 +154,8 @@ TEST_CASE("By COCO's rule crowds take what no object takes, any number of detect
     // the third is the object in the crowd up to an overlap of .6, beyond it is part of the crowd
     ism::CocoFigures figures = by_coco(truth, found).classes[0].figures;
     CHECK(figures.ap50 == 1);
-    CHECK(figures.ap75 == Approx(half));
-    CHECK(figures.ap == Approx(0.3 + 0.7 * half));
+    CHECK(figures.ap75 == Approx(half_recall));
+    CHECK(figures.ap == Approx(0.3 + 0.7 * half_recall));
     CHECK(figures.recall == Approx(0.65));
 
     // half of it in the crowd is enough at .5 alone, else it is wrong before any that is right
@@ -163,8 +163,8 @@ TEST_CASE("By COCO's rule crowds take what no object takes, any number of detect
     beside.push_back(found_of(1, {95, 0, 10, 10}));
     figures = by_coco(truth, beside).classes[0].figures;
     CHECK(figures.ap50 == 1);
-    CHECK(figures.ap75 == Approx(half / 2));
-    CHECK(figures.ap == Approx((1 + 2 * 2.0 / 3 + 7 * half / 2) / 10));
+    CHECK(figures.ap75 == Approx(half_recall / 2));
+    CHECK(figures.ap == Approx((1 + 2 * 2.0 / 3 + 7 * half_recall / 2) / 10));
 }
 
 TEST_CASE("By COCO's rule of equal scores the first image and detection count first") {
@@ -180,7 +180,7 @@ TEST_CASE("By COCO's rule of equal overlaps the last object is found") {
     // the first detection overlaps both by 9/11; the second is right from .7 to .8 if the first took the last
     const auto result = by_coco({truth_of({0, 0, 10, 10}), truth_of({2, 0, 10, 10})},
                                 {found_of(.9, {1, 0, 10, 10}), found_of(.8, {0, 0, 10, 10})});
-    CHECK(result.mean.ap == Approx(0.7 + 0.3 * half / 2));
+    CHECK(result.mean.ap == Approx(0.7 + 0.3 * half_recall / 2));
     CHECK(result.mean.recall == Approx(0.7 + 0.3 * 0.5));
 }
 

@@ -159,6 +159,7 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
     model.figure_colors.resize(2);
     for (std::size_t k = 0; k < ism::figure_color_bins; ++k)
         model.figure_colors[1].push_back(float(random.uniform(-3, 3)));
+    model.typical_masks = {{}, {.mean = {0.5, 1.0 / 3, -2}, .deviation = {0.25, 1.0 / 7, 3}}};
     model.training = {12, 3456, 789};
     model.channels[1].neighbours = 7;
     model.rgbd = {depth_model(model, random)};
@@ -199,6 +200,7 @@ void check_equal(const ism::Model& a, const ism::Model& b) {
     CHECK(a.template_calibration.curves == b.template_calibration.curves);
     CHECK(a.exemplars == b.exemplars);
     CHECK(a.figure_colors == b.figure_colors);
+    CHECK(a.typical_masks == b.typical_masks);
     CHECK(a.training == b.training);
     REQUIRE(a.shapes.objects.size() == b.shapes.objects.size());
     for (std::size_t i = 0; i < a.shapes.objects.size(); ++i) {
@@ -358,6 +360,11 @@ TEST_CASE("A model that could not be read again is not written") {
     refuses("figure_colors: expected finite", [](ism::Model& m) { m.figure_colors[1][7] = std::nanf(""); });
     refuses("[1, 4096]", [](ism::Model& m) { m.figure_colors[1].pop_back(); });
     refuses("figure_color_classes", [](ism::Model& m) { m.figure_colors.push_back(m.figure_colors[1]); });
+    refuses("typical_masks: expected 0 or 2", [](ism::Model& m) { m.typical_masks.pop_back(); });
+    refuses("typical_masks: expected finite",
+            [](ism::Model& m) { m.typical_masks[1].mean.extent = std::nan(""); });
+    refuses("typical_masks: expected finite",
+            [](ism::Model& m) { m.typical_masks[1].deviation.extent = -1; });
     refuses("finite", [](ism::Model& m) { m.templates[0].bias = std::nanf(""); });
     refuses("object_points", [](ism::Model& m) { m.shapes.objects[2].points_m[4].y = std::nanf(""); });
     refuses("depth and size of an object", [](ism::Model& m) { m.shapes.objects[0].size_m = -1; });
@@ -469,7 +476,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {": class names: expected 1 or more", [](File& f) { f.metadata["class_names"] = "[]"; }},
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 14, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
+        {": format version: expected 15, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
         {": object_places: expected -1e+06 ... 1e+06",
          [&](File& f) { set(f, "object_places", 4, ism::no_depth); }},
         {": depth and size of an object: expected 0 or more",

@@ -25,7 +25,7 @@ using ism::test::pattern_picture;
 
 namespace {
 
-const std::vector<std::string> names{"first", "second"};
+const std::vector<std::string> pipeline_names{"first", "second"};
 
 std::vector<ism::TrainingImage> training_set() {
     std::vector<ism::TrainingImage> images;
@@ -37,7 +37,7 @@ std::vector<ism::TrainingImage> training_set() {
 template <class Desc>
 ism::TypedModel<ism::HessianLaplace, Desc> train(unsigned threads) {
     const auto images = training_set();
-    return ism::train<ism::HessianLaplace, Desc>(names, images, {.threads = threads});
+    return ism::train<ism::HessianLaplace, Desc>(pipeline_names, images, {.threads = threads});
 }
 
 /// Trained once for all tests.
@@ -206,7 +206,8 @@ TEST_CASE("words of two channels of other lengths vote together") {
     const auto images = training_set();
     const std::vector<ism::AnyExtractor> extractors{ism::Extractor<ism::HessianLaplace, ism::RootSift>{},
                                                     ism::Extractor<ism::DenseGrid, ism::GrayPatch>{}};
-    const auto features = ism::extract_training_features(names, ism::training_set(images), extractors);
+    const auto features =
+        ism::extract_training_features(pipeline_names, ism::training_set(images), extractors);
     REQUIRE(features.samples.size() == 2);
     CHECK(features.samples[0].descriptors.dimension() == 128);
     CHECK(features.samples[1].descriptors.dimension() == 625);
@@ -300,7 +301,7 @@ TEST_CASE("wrong frames are refused by name") {
 TEST_CASE("wrong training images are refused by name") {
     auto images = training_set();
     const auto train = [&](const ism::TrainOptions& options = {.box_classifier = {}, .calibrate = false}) {
-        return ism::train<ism::HessianLaplace, ism::RootSift>(names, images, options);
+        return ism::train<ism::HessianLaplace, ism::RootSift>(pipeline_names, images, options);
     };
     CHECK_THROWS_WITH(train({.codebook = {.min_similarity = 2}}), Catch::Contains("similarity"));
     CHECK_THROWS_WITH(train({.codebook = {.min_cluster_size = 0}}), Catch::Contains("min_cluster_size"));

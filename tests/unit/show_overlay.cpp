@@ -14,7 +14,7 @@ using ism::RgbImage;
 namespace {
 
 const std::vector<std::string> both_names{"cup", "bowl"};
-constexpr ism::OverlayOptions plain{.side_px = 200, .close_up = false};
+constexpr ism::OverlayOptions plain_options{.side_px = 200, .close_up = false};
 
 // a 100×60 image, a detection with 20×10 figure pixels at (40, 30) in maps of 30×20 that begin at (35, 25)
 RgbImage some_picture() {
@@ -44,7 +44,7 @@ ism::Detections some_detections() {
 
 TEST_CASE("The four images show votes, both maps on one scale, and the figure untouched") {
     const RgbImage image = some_picture(), large = ism::magnified(image, 2);
-    const RgbImage row = ism::draw_explanation(image, some_detections(), 0, both_names, plain);
+    const RgbImage row = ism::draw_explanation(image, some_detections(), 0, both_names, plain_options);
     const int head = row.height() - 120, step = (row.width() - 200) / 3;
     REQUIRE(head == 0);  // without a font there are no captions
     REQUIRE(step >= 200);
@@ -61,16 +61,16 @@ TEST_CASE("The four images show votes, both maps on one scale, and the figure un
     CHECK(ism::brightness(around) < ism::brightness(image(10, 10)));
     CHECK(panel(0, 5, 55) == ism::mix(large(10, 110), ism::black, 0.4));
     CHECK(panel(0, 40, 35) == ism::class_color(1));  // the box
-    CHECK(row == ism::draw_explanation(image, some_detections(), 0, both_names, plain));
+    CHECK(row == ism::draw_explanation(image, some_detections(), 0, both_names, plain_options));
 }
 
 TEST_CASE("Cells of a template are green where they speak for the class, red where against it") {
     ism::Detections detections = some_detections();
     const RgbImage image = some_picture();
-    const RgbImage four = ism::draw_explanation(image, detections, 0, both_names, plain);
+    const RgbImage four = ism::draw_explanation(image, detections, 0, both_names, plain_options);
     ism::CellShares& cells = detections.objects[0].cells;
     cells = {{2, 1, false}, detections.objects[0].box, {0.5f, -0.25f}};  // the box's left and right half
-    const RgbImage five = ism::draw_explanation(image, detections, 0, both_names, plain);
+    const RgbImage five = ism::draw_explanation(image, detections, 0, both_names, plain_options);
     REQUIRE(five.width() == four.width() + (four.width() - 200) / 3);
     const auto second = [&](int x, int y) {
         return five((four.width() - 200) / 3 + 2 * x, five.height() - 120 + 2 * y);
@@ -79,7 +79,7 @@ TEST_CASE("Cells of a template are green where they speak for the class, red whe
     CHECK(second(45, 35) == ism::mix(grey, ism::detail::for_color, 0.85));
     CHECK(second(55, 35).r > second(55, 35).g);
     CHECK(second(30, 20).r == second(30, 20).g);
-    ism::OverlayOptions options = plain;
+    ism::OverlayOptions options = plain_options;
     options.cells = false;
     CHECK(ism::draw_explanation(image, detections, 0, both_names, options) == four);
 }
@@ -99,7 +99,7 @@ TEST_CASE("A close-up shows the detection and its surroundings as the whole imag
     const ism::Detections there =
         ism::detail::moved_to(detections, detections.objects[0], int(part.x), int(part.y));
     CHECK(ism::draw_explanation(image, detections, 0, both_names, {.side_px = 200}) ==
-          ism::draw_explanation(cut, there, 0, both_names, plain));
+          ism::draw_explanation(cut, there, 0, both_names, plain_options));
 
     ism::Detections outside = detections;
     outside.objects[0] = {};
@@ -117,7 +117,7 @@ TEST_CASE("All detections are marked in one image, magnified so that labels can 
     detections.objects[1].class_index = 0;
     detections.objects[1].segmentation = {};
     detections.objects[1].box = {90, 50, 30, 30};  // reaches outside
-    const RgbImage all = ism::draw_detections(image, detections, both_names, plain);
+    const RgbImage all = ism::draw_detections(image, detections, both_names, plain_options);
     CHECK(all(2 * 42, 2 * 39 + 1) == ism::class_color(1));  // contour and box
     CHECK(all(2 * 50, 2 * 35) == ism::mix(ism::magnified(image, 2)(100, 70), ism::class_color(1), 0.35));
     CHECK(all(10, 10) == ism::magnified(image, 2)(10, 10));
@@ -136,14 +136,14 @@ TEST_CASE("Labels evade each other while there is room") {
         for (std::size_t b = 0; b < a; ++b) CHECK(ism::intersection(used[a], used[b]).area() == 0);
     }
     if (font.empty()) return;
-    ism::OverlayOptions options = plain;
+    ism::OverlayOptions options = plain_options;
     options.font = &font;
     const RgbImage picture = some_picture(),
-                   bare = ism::draw_explanation(picture, some_detections(), 0, both_names, plain);
+                   bare = ism::draw_explanation(picture, some_detections(), 0, both_names, plain_options);
     CHECK(ism::draw_explanation(picture, some_detections(), 0, both_names, options).height() >
           bare.height() + 12);
     CHECK_FALSE(ism::draw_detections(picture, some_detections(), both_names, options) ==
-                ism::draw_detections(picture, some_detections(), both_names, plain));
+                ism::draw_detections(picture, some_detections(), both_names, plain_options));
 }
 
 TEST_CASE("Detections without support or mask, at the edge or in the tiniest image can be shown") {
@@ -166,7 +166,7 @@ TEST_CASE("Overlays refuse what does not belong together") {
     CHECK_THROWS_AS(ism::draw_detections(image, detections, std::span(both_names).first(1)), ism::Error);
     detections.objects[0].support[0].feature = 2;
     CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, both_names), ism::Error);
-    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, both_names, plain), ism::Error);
+    CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, both_names, plain_options), ism::Error);
     detections = some_detections();
     detections.objects[0].segmentation.ground = ism::GrayImage(3, 3);
     CHECK_THROWS_AS(ism::draw_explanation(image, detections, 0, both_names), ism::Error);

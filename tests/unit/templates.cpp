@@ -31,6 +31,19 @@ using TypedModel = ism::TypedModel<ism::HessianLaplace, ism::RootSift>;
 using Recognition = ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::TemplateScore,
                                      ism::PatchSegmenter, ism::NonMaximumSuppression>;
 
+/// What it cuts out makes detections more or less probable.
+struct JudgingSegmenter {
+    double log_odds = 0;
+    static constexpr double most_log_odds = 1;
+    [[nodiscard]] ism::Segmentation segment(const ism::Detection& hypothesis, const ism::Scene& scene) const {
+        return ism::PatchSegmenter{}.segment(hypothesis, scene);
+    }
+    void judge(ism::Detection& detection, const ism::Scene&) const {
+        const double odds = std::exp(log_odds) * detection.probability / (1 - detection.probability);
+        detection.probability = odds / (1 + odds), detection.score = odds;
+    }
+};
+
 const std::vector<std::string> pattern_names{"first pattern", "second pattern"};
 const ism::TemplateOptions small{.cells = 36, .mining_rounds = 1};
 
@@ -116,6 +129,36 @@ TEST_CASE("templates judge and place what votes propose") {
         for (const auto& object : found.objects) CHECK(object.probability <= none.next_best->probability);
         CHECK_FALSE(found.next_best);
     }
+}
+
+TEST_CASE("what was cut out decides what is told") {
+    const TypedModel& model = model_with_templates();
+    const auto test = pattern_picture(0, 71, 53, 90);
+    const auto found = [&](double log_odds, double min_probability) {
+        auto recognition = ism::template_recognition<ism::Jism>(JudgingSegmenter{log_odds});
+        recognition.options.min_probability = min_probability;
+        return ism::detect(model, test.frame, recognition, 1);
+    };
+    const ism::Detections all = found(0, 0);
+    const double probability = all.objects.at(0).probability, odds = probability / (1 - probability);
+    const auto after = [&](double log_odds) { return 1 / (1 + std::exp(-log_odds) / odds); };
+    // What is not probable enough before may be so afterwards …
+    const ism::Detections more = found(0.9, after(0.8));
+    REQUIRE(more.objects.size() >= 1);
+    CHECK(more.objects[0].probability == Approx(after(0.9)));
+    CHECK(more.objects[0].box == all.objects[0].box);
+    CHECK(found(0.7, after(0.8)).objects.empty());
+    // … and the other way round; the best guess is told as it is then, with its mask.
+    const ism::Detections less = found(-0.5, after(-0.4));
+    CHECK(less.objects.empty());
+    REQUIRE(less.next_best);
+    CHECK(less.next_best->probability == Approx(after(-0.5)));
+    CHECK_FALSE(less.next_best->segmentation.mask.empty());
+    CHECK(less.stats.segmented >= 1);
+    const ism::Detections changed = found(-2, 0);
+    CHECK(changed.objects.size() == all.objects.size());
+    for (std::size_t i = 1; i < changed.objects.size(); ++i)
+        CHECK(changed.objects[i].score <= changed.objects[i - 1].score);
 }
 
 TEST_CASE("a detector finds the same whatever frames it saw before") {
@@ -223,7 +266,14 @@ TEST_CASE("colours are learnt of classes whose objects have masks, and kept when
     CHECK(model.figure_colors_of(0).size() == ism::figure_color_bins);
     CHECK(model.figure_colors_of(1).empty());
     CHECK(model.figure_colors_of(2).empty());
-    CHECK(ism::learn_exemplars(model, pattern_features()).figure_colors == model.figure_colors);
+    const ism::Model lending = ism::learn_exemplars(model, pattern_features());
+    CHECK(lending.figure_colors == model.figure_colors);
+    // What masks are like is known of those that lend theirs.
+    REQUIRE(lending.typical_masks.size() == 2);
+    CHECK(lending.typical_masks[0].known());
+    CHECK_FALSE(lending.typical_masks[1].known());
+    CHECK(ism::learn_exemplars(model, pattern_features(), 300, 2).typical_masks == lending.typical_masks);
+    CHECK(ism::learn_exemplars(model_without_templates(), pattern_features()).typical_masks.empty());
 }
 
 TEST_CASE("the same templates for any number of threads") {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ism/core/box_region.hpp"
@@ -15,6 +16,7 @@
 #include "ism/core/resize_area.hpp"
 #include "ism/detect/exemplar_prior.hpp"
 #include "ism/detect/figure_box.hpp"
+#include "ism/detect/mask_evidence.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/detect/segment.hpp"
 #include "ism/model/figure_color_odds.hpp"
@@ -42,6 +44,14 @@ struct ExemplarSegmenter {
     PatchSegmenter votes = {};     ///< for classes without exemplars
 
     [[nodiscard]] Segmentation segment(const Detection& hypothesis, const Scene& scene) const;
+    /// @brief The same by these of the model's exemplars and these colours.
+    /// @param colors  FigureColors; may be empty
+    [[nodiscard]] Segmentation segment_by(std::span<const std::uint32_t> exemplar_indices,
+                                          std::span<const float> colors, const Detection& hypothesis,
+                                          const Scene& scene) const;
+    /// @brief What was cut out speaks for or against it, see weigh_mask().
+    void judge(Detection& detection, const Scene& scene) const { weigh_mask(detection, scene.model); }
+    static constexpr double most_log_odds = most_mask_log_odds;  ///< that judge() adds
 };
 
 /// @brief Validates options.
@@ -67,18 +77,24 @@ inline void check(const ExemplarSegmenter& options) {
 
 inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, const Scene& scene) const {
     const Model& model = scene.model;
-    const Box& box = hypothesis.box;
-    std::vector<std::uint32_t> among;
+    std::vector<std::uint32_t> of_class;
     for (std::uint32_t e = 0; e < model.exemplars.size(); ++e)
         if (model.shapes.objects[model.exemplars[e].object].class_index == hypothesis.class_index)
-            among.push_back(e);
-    if (among.empty() || !(box.area() >= 1)) return votes.segment(hypothesis, scene);
+            of_class.push_back(e);
+    if (of_class.empty() || !(hypothesis.box.area() >= 1)) return votes.segment(hypothesis, scene);
+    return segment_by(of_class, model.figure_colors_of(hypothesis.class_index), hypothesis, scene);
+}
 
-    const FrameColors colors(scene.frame);
-    const RgbImage& color = colors.image();
+inline Segmentation ExemplarSegmenter::segment_by(std::span<const std::uint32_t> exemplar_indices,
+                                                  std::span<const float> colors, const Detection& hypothesis,
+                                                  const Scene& scene) const {
+    const Model& model = scene.model;
+    const Box& box = hypothesis.box;
+    const FrameColors frame_colors(scene.frame);
+    const RgbImage& color = frame_colors.image();
     const BoxRegion region(box, margin, color.width(), color.height());
-    const ExemplarPrior lenders(model, among, describe_exemplar(color, box, compared_boxes(box, exemplars)),
-                                exemplars);
+    const ExemplarPrior lenders(model, exemplar_indices,
+                                describe_exemplar(color, box, compared_boxes(box, exemplars)), exemplars);
 
     // The region in the size that colours are compared at.
     const double zoom = std::min(1.0, double(max_side_px) / std::max(region.width, region.height));
@@ -87,8 +103,7 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     const std::vector<float> rgb =
         resize_area<3>(region_colors(color, region), region.width, region.height, width, height);
     const ColorBins bins(rgb);
-    const std::vector<float> class_odds =
-        figure_color_odds(model.figure_colors_of(hypothesis.class_index), rgb);
+    const std::vector<float> class_odds = figure_color_odds(colors, rgb);
 
     // Pixels of it as samples of the prior, and back.
     constexpr double sample = 1.0 / ExemplarPrior::samples;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -51,6 +52,22 @@ template <Verifier V>
         return true;
 }
 
+/// Lets what it cut out speak for or against detections.
+template <class S>
+concept MaskJudging = requires(const S& segmenter, Detection& detection, const Scene& scene) {
+    segmenter.judge(detection, scene);
+    { S::most_log_odds } -> std::convertible_to<double>;
+};
+
+/// The least probability with which a detection may still reach this one once it is cut out.
+template <Segmenter S>
+[[nodiscard]] double least_before_masks(double probability) {
+    if constexpr (MaskJudging<S>)
+        return probability / (probability + std::exp(S::most_log_odds) * (1 - probability));
+    else
+        return probability;
+}
+
 /// From hypotheses on: the same code for every vote space.
 template <Rescorer R, Segmenter S, Verifier V>
 [[nodiscard]] Detections judge_hypotheses(Scene&& scene, std::vector<Detection> hypotheses,
@@ -67,7 +84,9 @@ template <Rescorer R, Segmenter S, Verifier V>
             detections[i].segmentation = segmenter.segment(detections[i], scene);
             if (const std::optional<Box> box = detections[i].segmentation.box)
                 move_to(detections[i], *box, scene.frame.camera);
+            if constexpr (MaskJudging<S>) segmenter.judge(detections[i], scene);
         });
+        if constexpr (MaskJudging<S>) sort_by_score(detections);
         stats.segmented = detections.size();
         stats.segment_ms = watch.lap_ms();
     };
@@ -76,7 +95,12 @@ template <Rescorer R, Segmenter S, Verifier V>
     std::vector<Verified> verified = verifier.verify(hypotheses, scene);
     sort_by_score(verified);
     Detections result;
-    Detection* next_best = nullptr;
+    const auto left_out = [&](Detection& object) {
+        if (!result.next_best || object.probability > result.next_best->probability)
+            result.next_best = std::move(object);
+    };
+    const double least =
+        masks_first ? options.min_probability : least_before_masks<S>(options.min_probability);
     for (const auto& [index, score] : verified) {
         if (score < options.min_relative_score * verified.front().score) break;
         Detection& object = hypotheses[index];
@@ -84,14 +108,24 @@ template <Rescorer R, Segmenter S, Verifier V>
         const bool judged = !std::isnan(object.probability);
         expect(judged || !(options.min_probability > 0), "DetectOptions::min_probability",
                "0 where votes alone judge, or the model knows no probabilities", options.min_probability);
-        if (!judged || object.probability >= options.min_probability)
+        if (!judged || object.probability >= least)
             result.objects.push_back(std::move(object));
-        else if (next_best == nullptr || object.probability > next_best->probability)
-            next_best = &object;
+        else
+            left_out(object);
     }
-    if (next_best != nullptr) result.next_best = std::move(*next_best);
     stats.verify_ms = watch.lap_ms();
-    if (!masks_first) segment(result.objects);
+    if (!masks_first) {
+        segment(result.objects);
+        if constexpr (MaskJudging<S>) {
+            std::vector<Detection> cut_out;
+            cut_out.swap(result.objects);
+            for (Detection& object : cut_out)
+                if (object.probability < options.min_probability)
+                    left_out(object);
+                else
+                    result.objects.push_back(std::move(object));
+        }
+    }
     result.features = std::move(scene.features);
     result.stats = stats;
     return result;

@@ -45,10 +45,11 @@ struct BoxReasons {
     double size = 0;
     double any = 0;
     double rivals = 0;  ///< more probable objects of other classes at the same place
+    double mask = 0;    ///< what was cut out, see weigh_mask(); only in logarithms of odds
 
     [[nodiscard]] bool empty() const { return look == 0 && any == 0; }
     [[nodiscard]] double sum() const {
-        return look + patches + words + votes + contrast + colors + size + any + rivals;
+        return look + patches + words + votes + contrast + colors + size + any + rivals + mask;
     }
     /// @brief Margins in logarithms of odds, by the curve of a class (Calibration).
     [[nodiscard]] BoxReasons in_odds(double slope, double offset) const {

@@ -18,6 +18,7 @@
 #include "ism/model/mask_judge.hpp"
 #include "ism/model/patch_classifier.hpp"
 #include "ism/model/shape_model.hpp"
+#include "ism/model/typical_mask.hpp"
 
 namespace ism {
 
@@ -53,6 +54,7 @@ struct Model {
     Calibration template_calibration = {};         ///< of templates with the other cues; may be empty
     std::vector<MaskExemplar> exemplars = {};      ///< whose masks are lent; may be empty
     std::vector<FigureColors> figure_colors = {};  ///< of each class; may be empty
+    std::vector<TypicalMask> typical_masks = {};   ///< of each class; may be empty
     MaskJudge mask_judge = {};                     ///< of regions of RGB-D images; may be empty
     TrainingSummary training = {};
     std::vector<Model> rgbd = {};  ///< none or one: the model of learn_metric() for frames with depth

@@ -17,6 +17,7 @@
 #include "ism/model/calibration.hpp"
 #include "ism/model/figure_colors.hpp"
 #include "ism/model/mask_exemplar.hpp"
+#include "ism/model/typical_mask.hpp"
 #include "ism/model_file/shape_tensors.hpp"
 #include "ism/model_file/tensor.hpp"
 
@@ -199,6 +200,32 @@ inline void exemplars_to_tensors(std::span<const MaskExemplar> exemplars, Tensor
         exemplars.push_back({objects[i], {own.begin(), own.end()}});
     }
     return exemplars;
+}
+
+inline void typical_masks_to_tensor(std::span<const TypicalMask> masks, TensorFile& file) {
+    std::vector<double> numbers;
+    for (const TypicalMask& mask : masks)
+        for (const auto& values : {mask.mean.values(), mask.deviation.values()})
+            numbers.insert(numbers.end(), values.begin(), values.end());
+    file.tensors["typical_masks"] = make_tensor<double>(numbers, {masks.size(), 2, 3});
+}
+
+[[nodiscard]] inline std::vector<TypicalMask> typical_masks_from_tensor(const TensorFile& file,
+                                                                        std::size_t classes) {
+    const auto numbers = values<double>(file, "typical_masks", {any_length, 2, 3});
+    const std::size_t count = numbers.size() / 6;
+    expect<FileError>(count == 0 || count == classes, lazy_text(file.source, ": typical_masks"),
+                      lazy_text("0 or ", classes), count);
+    std::vector<TypicalMask> masks;
+    for (std::size_t c = 0; c < count; ++c) {
+        const auto own = numbers.subspan(6 * c, 6);
+        for (std::size_t k = 0; k < own.size(); ++k)
+            expect<FileError>(std::isfinite(own[k]) && (k < 3 || own[k] >= 0),
+                              lazy_text(file.source, ": typical_masks"),
+                              "finite numbers, deviations of 0 or more", own[k]);
+        masks.push_back({.mean = {own[0], own[1], own[2]}, .deviation = {own[3], own[4], own[5]}});
+    }
+    return masks;
 }
 
 /// Those that are known one after another, and of which classes they are.

@@ -95,6 +95,7 @@ namespace detail {
     add("size: false boxes are mostly small", reasons.size);
     add("any box of the class", reasons.any);
     add("other classes at the same place", reasons.rivals);
+    add("what was cut out", reasons.mask);
     add("together", reasons.sum());
     return table;
 }

@@ -11,13 +11,15 @@
 #include "ism/model/describe_exemplar.hpp"
 #include "ism/train/describe_object.hpp"
 #include "ism/train/learn_figure_colors.hpp"
+#include "ism/train/learn_typical_masks.hpp"
 #include "ism/train/training_features.hpp"
 
 namespace ism {
 
-/// @brief Adds to a model the training objects that lend their masks (ExemplarSegmenter) and the colours of
-/// their classes, from the same training features, whose pixels were kept (TrainingFeatureOptions::pixels).
-/// An object without a mask of its own, labelled or from masks_from_boxes(), is none.
+/// @brief Adds to a model the training objects that lend their masks (ExemplarSegmenter), the colours of
+/// their classes and, where there are templates, what masks of each class are like (weigh_mask()), from the
+/// same training features, whose pixels were kept (TrainingFeatureOptions::pixels). An object without a mask
+/// of its own, labelled or from masks_from_boxes(), is none.
 /// @param max_of_class  of more objects of a class every second, third … is taken
 /// @throws Error where the model is of other objects, or no image has pixels.
 [[nodiscard]] inline Model learn_exemplars(Model model, const TrainingFeatures& features,
@@ -61,6 +63,8 @@ namespace ism {
         parallel_for(colored.size(), threads,
                      [&](std::size_t c) { model.figure_colors[c] = learn_figure_colors(colored[c]); });
     }
+    model.typical_masks.clear();
+    if (!model.templates.empty()) model.typical_masks = detail::learn_typical_masks(model, features, threads);
     return model;
 }
 
