@@ -39,8 +39,8 @@ struct ChosenSegmenter {
         return exemplars ? ism::ExemplarSegmenter{}.segment(hypothesis, scene)
                          : ism::PatchSegmenter{}.segment(hypothesis, scene);
     }
-    void judge(ism::Detection& detection, const ism::Scene& scene) const {
-        if (exemplars) ism::ExemplarSegmenter{}.judge(detection, scene);
+    void judge(std::vector<ism::Detection>& detections, const ism::Scene& scene) const {
+        if (exemplars) ism::ExemplarSegmenter{}.judge(detections, scene);
     }
     static constexpr double most_log_odds = ism::ExemplarSegmenter::most_log_odds;
 };

@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "support/catch.hpp"
 
+#include "ism/core/thread_pool.hpp"
 #include "ism/detect/mask_evidence.hpp"
 
 namespace {
@@ -74,9 +78,11 @@ TEST_CASE("what was cut out changes how probable an object is") {
     judged.score = std::exp(1.0);
     judged.probability = model.template_calibration.probability(0, judged.score);
     judged.box_reasons = ism::BoxReasons{.look = 1}.in_odds(2, -1);
-    const auto weighed = [&](ism::Detection detection) {
-        ism::weigh_mask(detection, model);
-        return detection;
+    ism::ThreadPool pool(1);
+    const auto weighed = [&](const ism::Detection& detection) {
+        std::vector<ism::Detection> alone{detection};
+        ism::weigh_masks(alone, model, pool);
+        return alone[0];
     };
     CHECK(weighed(judged).probability == judged.probability);  // nothing is known of masks
     model.typical_masks = {{.mean = {0.9, 0.8, std::log(18)}, .deviation = {0.2, 0.1, 1}},
@@ -98,4 +104,37 @@ TEST_CASE("what was cut out changes how probable an object is") {
     CHECK(weighed(by_votes).probability == judged.probability);
     model.typical_masks[0].deviation.certainty = 0;
     CHECK(weighed(judged).score == judged.score);
+}
+
+TEST_CASE("what speaks against the most probable class of a place speaks against the others") {
+    const double ragged = std::log(120 * 120 / 800.0);
+    ism::Model model;
+    model.template_calibration.curves = {{.slope = 2, .offset = 0}, {.slope = 1, .offset = 0}};
+    model.typical_masks = {{.mean = {0.9, 0.8, ragged}, .deviation = {0.1, 0.1, 1}},   // as the mask is not
+                           {.mean = {0.5, 0.8, ragged}, .deviation = {0.1, 0.1, 1}}};  // as it is
+    const auto judged = [&](std::uint32_t class_index, double x, double log_odds) {
+        ism::Detection detection;
+        detection.class_index = class_index, detection.box = {x, 50, 40, 40};
+        detection.segmentation = columns(20, 40, 0.8f);
+        detection.segmentation.x = int(x);
+        const double slope = model.template_calibration.curves[class_index].slope;
+        detection.score = std::exp(log_odds / slope);
+        detection.probability = model.template_calibration.probability(class_index, detection.score);
+        detection.box_reasons = {.look = log_odds};
+        return detection;
+    };
+    ism::ThreadPool pool(2);
+    std::vector<ism::Detection> found{judged(0, 100, 2), judged(1, 110, 1), judged(1, 300, 1),
+                                      judged(0, 305, -1)};
+    ism::weigh_masks(found, model, pool);
+    const double most = ism::most_mask_log_odds, against = (3 - 9) * ism::mask_weight;
+    CHECK(found[0].box_reasons.mask == Approx(against));
+    CHECK(found[1].box_reasons.mask == Approx(against));  // else it would overtake the first
+    CHECK(found[2].box_reasons.mask == Approx(most));     // there it leads
+    CHECK(found[3].box_reasons.mask == Approx(against));
+    for (const ism::Detection& detection : found)
+        CHECK(log_odds(detection.probability) == Approx(detection.box_reasons.sum()));
+    const std::vector<ism::Detection> once = found;
+    ism::weigh_masks(found, model, pool);
+    for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i].score == Approx(once[i].score));
 }

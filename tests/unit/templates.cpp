@@ -38,9 +38,11 @@ struct JudgingSegmenter {
     [[nodiscard]] ism::Segmentation segment(const ism::Detection& hypothesis, const ism::Scene& scene) const {
         return ism::PatchSegmenter{}.segment(hypothesis, scene);
     }
-    void judge(ism::Detection& detection, const ism::Scene&) const {
-        const double odds = std::exp(log_odds) * detection.probability / (1 - detection.probability);
-        detection.probability = odds / (1 + odds), detection.score = odds;
+    void judge(std::vector<ism::Detection>& detections, const ism::Scene&) const {
+        for (ism::Detection& detection : detections) {
+            const double odds = std::exp(log_odds) * detection.probability / (1 - detection.probability);
+            detection.probability = odds / (1 + odds), detection.score = odds;
+        }
     }
 };
 

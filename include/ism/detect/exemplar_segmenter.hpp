@@ -49,8 +49,10 @@ struct ExemplarSegmenter {
     [[nodiscard]] Segmentation segment_by(std::span<const std::uint32_t> exemplar_indices,
                                           std::span<const float> colors, const Detection& hypothesis,
                                           const Scene& scene) const;
-    /// @brief What was cut out speaks for or against it, see weigh_mask().
-    void judge(Detection& detection, const Scene& scene) const { weigh_mask(detection, scene.model); }
+    /// @brief What was cut out speaks for or against detections, see weigh_masks().
+    void judge(std::vector<Detection>& detections, const Scene& scene) const {
+        weigh_masks(detections, scene.model, scene.pool);
+    }
     static constexpr double most_log_odds = most_mask_log_odds;  ///< that judge() adds
 };
 

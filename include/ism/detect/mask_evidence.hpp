@@ -6,10 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "ism/core/geometry.hpp"
+#include "ism/core/thread_pool.hpp"
 #include "ism/detect/detection.hpp"
+#include "ism/detect/rivals.hpp"
 #include "ism/model/model.hpp"
 #include "ism/model/typical_mask.hpp"
 
@@ -68,20 +72,39 @@ inline constexpr double most_mask_log_odds = 3 * mask_weight;
     return sum;
 }
 
-/// @brief Lets what was cut out speak for or against an object that templates judged: what they take for one
-/// by chance is mostly cut out as no object of the class is. Where the class's masks are not known nothing
-/// changes.
-inline void weigh_mask(Detection& detection, const Model& model) {
-    const std::uint32_t c = detection.class_index;
-    if (detection.box_reasons.empty() || c >= model.typical_masks.size()) return;
-    const TypicalMask& typical = model.typical_masks[c];
-    const double slope = model.template_calibration.curves[c].slope;
-    if (!typical.known() || !(slope > 0)) return;
-    const double before = detection.box_reasons.mask,
-                 now = mask_log_odds(measure_mask(detection.segmentation, detection.box), typical);
-    detection.box_reasons.mask = now;
-    detection.score *= std::exp((now - before) / slope);
-    detection.probability = model.template_calibration.probability(c, detection.score);
+/// @brief Lets what was cut out speak for or against objects that templates judged: what they take for one by
+/// chance is mostly cut out as no object of the class is. One place shows one object: where it speaks against
+/// the most probable class, it speaks as much against the others. Where a class's masks are not known nothing
+/// is said.
+/// @param detections  of one image, cut out
+inline void weigh_masks(std::vector<Detection>& detections, const Model& model, ThreadPool& pool) {
+    struct Evidence {
+        double odds = 0;                  // before, in logarithms
+        std::optional<double> mask = {};  // own
+    };
+    std::vector<Evidence> evidence(detections.size());
+    pool.for_each(detections.size(), [&](std::size_t i, unsigned) {
+        const Detection& detection = detections[i];
+        const std::uint32_t c = detection.class_index;
+        if (detection.box_reasons.empty() || c >= model.typical_masks.size()) return;
+        evidence[i].odds = detection.box_reasons.sum() - detection.box_reasons.mask;
+        if (const TypicalMask& typical = model.typical_masks[c]; typical.known())
+            evidence[i].mask = mask_log_odds(measure_mask(detection.segmentation, detection.box), typical);
+    });
+    for (std::size_t i = 0; i < detections.size(); ++i) {
+        Detection& detection = detections[i];
+        if (!evidence[i].mask) continue;
+        std::size_t leader = i;
+        for (std::size_t j = 0; j < detections.size(); ++j)
+            if (evidence[j].odds > evidence[leader].odds && is_rival(detections[j], detection)) leader = j;
+        const double slope = model.template_calibration.curves[detection.class_index].slope,
+                     mask = std::min(*evidence[i].mask, evidence[leader].mask.value_or(most_mask_log_odds));
+        if (!(slope > 0)) continue;
+        detection.score *= std::exp((mask - detection.box_reasons.mask) / slope);
+        detection.box_reasons.mask = mask;
+        detection.probability =
+            model.template_calibration.probability(detection.class_index, detection.score);
+    }
 }
 
 }  // namespace ism

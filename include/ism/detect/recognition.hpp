@@ -54,8 +54,8 @@ template <Verifier V>
 
 /// Lets what it cut out speak for or against detections.
 template <class S>
-concept MaskJudging = requires(const S& segmenter, Detection& detection, const Scene& scene) {
-    segmenter.judge(detection, scene);
+concept MaskJudging = requires(const S& segmenter, std::vector<Detection>& detections, const Scene& scene) {
+    segmenter.judge(detections, scene);
     { S::most_log_odds } -> std::convertible_to<double>;
 };
 
@@ -84,9 +84,11 @@ template <Rescorer R, Segmenter S, Verifier V>
             detections[i].segmentation = segmenter.segment(detections[i], scene);
             if (const std::optional<Box> box = detections[i].segmentation.box)
                 move_to(detections[i], *box, scene.frame.camera);
-            if constexpr (MaskJudging<S>) segmenter.judge(detections[i], scene);
         });
-        if constexpr (MaskJudging<S>) sort_by_score(detections);
+        if constexpr (MaskJudging<S>) {
+            segmenter.judge(detections, scene);
+            sort_by_score(detections);
+        }
         stats.segmented = detections.size();
         stats.segment_ms = watch.lap_ms();
     };

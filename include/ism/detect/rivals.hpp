@@ -18,6 +18,11 @@ inline constexpr double rival_iou = 0.25;
 /// @brief Share of its lead that a rival takes.
 inline constexpr double default_rival_share = 0.5;
 
+/// @brief Whether one of another class lies at about the same place.
+[[nodiscard]] inline bool is_rival(const Detection& other, const Detection& detection) {
+    return other.class_index != detection.class_index && iou(other.box, detection.box) >= rival_iou;
+}
+
 /// @brief By how much the most probable box of another class at about the same place leads each detection, in
 /// logarithms of odds; 0 where none does. What was lost to rivals before does not count.
 /// @param detections  with reasons of their boxes
@@ -27,9 +32,7 @@ inline constexpr double default_rival_share = 0.5;
     for (std::size_t i = 0; i < detections.size(); ++i) {
         double strongest = odds[i];
         for (std::size_t j = 0; j < detections.size(); ++j)
-            if (odds[j] > strongest && detections[j].class_index != detections[i].class_index &&
-                iou(detections[j].box, detections[i].box) >= rival_iou)
-                strongest = odds[j];
+            if (odds[j] > strongest && is_rival(detections[j], detections[i])) strongest = odds[j];
         leads.push_back(strongest - odds[i]);
     }
     return leads;

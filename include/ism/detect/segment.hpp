@@ -20,8 +20,8 @@ namespace ism {
 /// @brief Cuts hypotheses out. To model it, write a small struct with its options as members and
 /// `Segmentation segment(const Detection& hypothesis, const Scene&) const`, which is called from several
 /// threads at once. Options are validated by `void check(const S&)` where there is one. What was cut out may
-/// change how probable a detection is: by `void judge(Detection&, const Scene&) const` and
-/// `static constexpr double most_log_odds`, the most that it adds to the logarithm of the odds.
+/// change how probable the detections of an image are: by `void judge(std::vector<Detection>&, const Scene&)
+/// const` and `static constexpr double most_log_odds`, the most that it adds to the logarithm of the odds.
 template <class S>
 concept Segmenter = std::copyable<S> &&
     requires(const S& segmenter, const Detection& hypothesis, const Scene& scene) {

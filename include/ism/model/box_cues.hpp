@@ -45,7 +45,7 @@ struct BoxReasons {
     double size = 0;
     double any = 0;
     double rivals = 0;  ///< more probable objects of other classes at the same place
-    double mask = 0;    ///< what was cut out, see weigh_mask(); only in logarithms of odds
+    double mask = 0;    ///< what was cut out, see weigh_masks(); only in logarithms of odds
 
     [[nodiscard]] bool empty() const { return look == 0 && any == 0; }
     [[nodiscard]] double sum() const {

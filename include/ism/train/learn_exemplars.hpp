@@ -17,7 +17,7 @@
 namespace ism {
 
 /// @brief Adds to a model the training objects that lend their masks (ExemplarSegmenter), the colours of
-/// their classes and, where there are templates, what masks of each class are like (weigh_mask()), from the
+/// their classes and, where there are templates, what masks of each class are like (weigh_masks()), from the
 /// same training features, whose pixels were kept (TrainingFeatureOptions::pixels). An object without a mask
 /// of its own, labelled or from masks_from_boxes(), is none.
 /// @param max_of_class  of more objects of a class every second, third … is taken
