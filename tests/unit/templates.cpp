@@ -278,6 +278,24 @@ TEST_CASE("colours are learnt of classes whose objects have masks, and kept when
     CHECK(ism::learn_exemplars(model_without_templates(), pattern_features()).typical_masks.empty());
 }
 
+TEST_CASE("what few masks are like is known less well") {
+    CHECK_FALSE(ism::detail::typical_mask({}).known());
+    const std::vector<ism::MaskMeasures> one{{.extent = 0.5, .certainty = 0.9, .raggedness = 4}};
+    const ism::TypicalMask of_one = ism::detail::typical_mask(one);
+    CHECK(of_one.mean == one[0]);
+    CHECK(of_one.deviation.extent == Approx(0.06 * std::sqrt(5.0 / 6)));
+    CHECK(of_one.deviation.certainty == Approx(0.03 * std::sqrt(5.0 / 6)));
+    CHECK(of_one.deviation.raggedness == Approx(0.4 * std::sqrt(5.0 / 6)));
+    std::vector<ism::MaskMeasures> many;
+    for (int i = 0; i < 1000; ++i)
+        many.push_back(
+            {.extent = i % 2 == 0 ? 0.4 : 0.6, .certainty = 0.8, .raggedness = i % 2 == 0 ? 3.0 : 5.0});
+    const ism::TypicalMask of_many = ism::detail::typical_mask(many);
+    CHECK(of_many.mean.extent == Approx(0.5));
+    CHECK(of_many.deviation.extent == Approx(0.1).epsilon(0.01));
+    CHECK(of_many.deviation.raggedness == Approx(1).epsilon(0.01));
+}
+
 TEST_CASE("the same templates for any number of threads") {
     const ism::Model two = ism::learn_templates(model_without_templates(), pattern_features(), small, 2);
     CHECK(two.templates == model_with_templates().templates);
