@@ -97,13 +97,11 @@ inline void weigh_masks(std::vector<Detection>& detections, const Model& model, 
         std::size_t leader = i;
         for (std::size_t j = 0; j < detections.size(); ++j)
             if (evidence[j].odds > evidence[leader].odds && is_rival(detections[j], detection)) leader = j;
-        const double slope = model.template_calibration.curves[detection.class_index].slope,
-                     mask = std::min(*evidence[i].mask, evidence[leader].mask.value_or(most_mask_log_odds));
-        if (!(slope > 0)) continue;
-        detection.score *= std::exp((mask - detection.box_reasons.mask) / slope);
-        detection.box_reasons.mask = mask;
-        detection.probability =
-            model.template_calibration.probability(detection.class_index, detection.score);
+        if (!(model.template_calibration.curves[detection.class_index].slope > 0)) continue;
+        const double before = detection.box_reasons.mask;
+        detection.box_reasons.mask =
+            std::min(*evidence[i].mask, evidence[leader].mask.value_or(most_mask_log_odds));
+        change_log_odds(detection, detection.box_reasons.mask - before, model.template_calibration);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "ism/core/geometry.hpp"
@@ -17,6 +18,15 @@ inline constexpr double rival_iou = 0.25;
 
 /// @brief Share of its lead that a rival takes.
 inline constexpr double default_rival_share = 0.5;
+
+/// @brief Makes a detection more or less probable by a change of the logarithm of its odds, and its score
+/// with it.
+/// @param calibration  that gave it its probability, with a slope above 0 for its class
+inline void change_log_odds(Detection& detection, double change, const Calibration& calibration) {
+    const std::uint32_t c = detection.class_index;
+    detection.score *= std::exp(change / calibration.curves[c].slope);
+    detection.probability = calibration.probability(c, detection.score);
+}
 
 /// @brief Whether one of another class lies at about the same place.
 [[nodiscard]] inline bool is_rival(const Detection& other, const Detection& detection) {
@@ -52,8 +62,7 @@ inline void yield_to_rivals(std::vector<Detection>& detections, const Calibratio
         const double lost = leads[i] > 0 ? -share * leads[i] : 0, before = detection.box_reasons.rivals;
         if (lost == before || !(slope > 0)) continue;
         detection.box_reasons.rivals = lost;
-        detection.score *= std::exp((lost - before) / slope);
-        detection.probability = calibration.probability(detection.class_index, detection.score);
+        change_log_odds(detection, lost - before, calibration);
     }
 }
 
