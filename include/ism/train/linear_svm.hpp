@@ -3,11 +3,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -15,7 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/processor.hpp"
 #include "ism/core/random.hpp"
+#include "ism/core/vector.hpp"
 
 namespace ism {
 
@@ -24,15 +26,6 @@ struct LinearClassifier {
     std::vector<float> weights;
     double bias = 0;
 };
-
-namespace detail {
-
-/// Adds a share of some weights to others.
-inline void add_share(float share, std::span<const float> weights, std::span<float> sum) {
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += share * weights[k];
-}
-
-}  // namespace detail
 
 /// @brief What rows of examples are made of: whole numbers take half of the memory, which fitting waits for.
 template <typename T>
@@ -45,6 +38,65 @@ template <RowNumber T>
     for (std::size_t k = 0; k < rows.size(); k += dimension) starts.push_back(rows.data() + k);
     return starts;
 }
+
+namespace detail {
+
+/// Adds a share of some weights to others.
+inline void add_share(float share, std::span<const float> weights, std::span<float> sum) {
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += share * weights[k];
+}
+
+/// A register of numbers of a row, as floats.
+using RowPart = Vector<float, native_lanes>;
+
+ISM_DETAIL_INLINE void load_part(const std::int16_t* from, RowPart& part) {
+    Vector<std::int16_t, native_lanes> numbers;
+    Vector<std::int32_t, native_lanes> wide;
+    std::memcpy(&numbers, from, sizeof(numbers));
+#if defined(__AVX2__) && !defined(__AVX512F__)
+    asm("vpmovsxwd %1, %0" : "=x"(wide) : "xm"(numbers));  // g++ 12 widens halves apart and joins them
+#else
+    wide = __builtin_convertvector(numbers, Vector<std::int32_t, native_lanes>);
+#endif
+    part = __builtin_convertvector(wide, RowPart);
+}
+ISM_DETAIL_INLINE void load_part(const float* from, RowPart& part) {
+    std::memcpy(&part, from, sizeof(part));
+}
+
+/// The scalar product of two rows, summed in 16 lanes whatever the registers.
+template <RowNumber A, RowNumber B>
+[[nodiscard]] double row_product(const A* a, const B* b, std::size_t size) {
+    constexpr std::size_t lanes = 16;
+    RowPart sums[lanes / native_lanes]{}, x, y;
+    const std::size_t whole = size / lanes * lanes;
+    for (std::size_t k = 0; k < whole; k += lanes)
+#pragma GCC unroll 8
+        for (std::size_t part = 0; part < lanes / native_lanes; ++part) {
+            load_part(a + k + part * native_lanes, x), load_part(b + k + part * native_lanes, y);
+            sums[part] += x * y;
+        }
+    double sum = 0;
+    for (const RowPart& part : sums)
+        for (std::size_t l = 0; l < native_lanes; ++l) sum += part[l];
+    for (std::size_t k = whole; k < size; ++k) sum += float(a[k]) * float(b[k]);
+    return sum;
+}
+
+/// Adds a share of a row to as many weights.
+template <RowNumber T>
+void add_row(float share, const T* row, float* weights, std::size_t size) {
+    RowPart x, w;
+    const std::size_t whole = size / native_lanes * native_lanes;
+    for (std::size_t k = 0; k < whole; k += native_lanes) {
+        load_part(row + k, x), load_part(weights + k, w);
+        w += share * x;
+        std::memcpy(weights + k, &w, sizeof(w));
+    }
+    for (std::size_t k = whole; k < size; ++k) weights[k] += share * float(row[k]);
+}
+
+}  // namespace detail
 
 /// @brief How a linear support vector machine is fitted.
 struct LinearSvmOptions {
@@ -67,14 +119,7 @@ template <RowNumber T = float>
                                               const LinearSvmOptions& options = {}) {
     const std::size_t count = positive.size();
     const auto dot = [&](const auto* a, const T* b) {
-        std::array<float, 16> sums{};
-        const std::size_t whole = dimension / 16 * 16;
-        for (std::size_t k = 0; k < whole; k += 16)
-            for (std::size_t l = 0; l < 16; ++l) sums[l] += float(a[k + l]) * float(b[k + l]);
-        double sum = 0;
-        for (const float s : sums) sum += s;
-        for (std::size_t k = whole; k < dimension; ++k) sum += float(a[k]) * float(b[k]);
-        return sum * options.unit;
+        return detail::row_product(a, b, dimension) * options.unit;
     };
     std::vector<double> alpha(count, 0), diagonal(count), softness(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -115,8 +160,7 @@ template <RowNumber T = float>
             const double before = alpha[i];
             alpha[i] = std::max(0.0, alpha[i] - gradient / diagonal[i]);
             const double change = (alpha[i] - before) * sign;
-            const auto share = float(change * options.unit);
-            for (std::size_t k = 0; k < dimension; ++k) fit.weights[k] += share * float(x[k]);
+            detail::add_row(float(change * options.unit), x, fit.weights.data(), dimension);
             bias_weight += change * options.bias_scale;
         }
         if (most - least <= options.tolerance) {

@@ -29,6 +29,7 @@ struct MeanSums {
              std::size_t i, float vote_weight) {
         std::array<float, Dimension> offset;
         float sq_u = 0;
+#pragma GCC unroll 8
         for (std::size_t k = 0; k < Dimension; ++k) {
             offset[k] = votes.at[k][i] - window.centre[k];
             const float u = offset[k] * window.per_window[k];
@@ -37,6 +38,7 @@ struct MeanSums {
         const float w = static_cast<float>(K::shift(sq_u)) * vote_weight;
         weight[lane] += w;
         scale[lane] += w * votes.scale[i];
+#pragma GCC unroll 8
         for (std::size_t k = 0; k < Dimension; ++k) at[k][lane] += w * offset[k];
     }
 };
@@ -48,6 +50,7 @@ struct ScoreSum {
     void add(std::size_t lane, const VoteColumns<Dimension>& votes, const FloatWindow<Dimension>& window,
              std::size_t i, float vote_weight) {
         float sq_u = 0;
+#pragma GCC unroll 8
         for (std::size_t k = 0; k < Dimension; ++k) {
             const float u = (votes.at[k][i] - window.centre[k]) * window.per_window[k];
             sq_u += u * u;
