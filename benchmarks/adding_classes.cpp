@@ -29,6 +29,7 @@
 #include "ism/evaluate/detections.hpp"
 #include "ism/evaluate/table.hpp"
 #include "ism/model_file/model_file.hpp"
+#include "ism/train/append_training_features.hpp"
 #include "ism/train/training_features.hpp"
 
 namespace {

@@ -14,6 +14,7 @@
 
 #include "ism/dataset/read_images.hpp"
 #include "ism/model_file/model_file.hpp"
+#include "ism/train/append_training_features.hpp"
 #include "ism/train/orientation.hpp"
 #include "ism/train/select_words.hpp"
 #include "ism/train/vote_agreement.hpp"

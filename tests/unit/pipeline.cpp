@@ -19,6 +19,7 @@
 #include "ism/feature/gray_patch.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
+#include "ism/train/append_training_features.hpp"
 #include "ism/train/train.hpp"
 
 using ism::test::pattern_picture;

@@ -17,6 +17,7 @@
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
 #include "ism/model_file/model_file.hpp"
+#include "ism/train/append_training_features.hpp"
 #include "ism/train/train.hpp"
 
 using ism::test::pattern_picture;
@@ -203,6 +204,19 @@ TEST_CASE("training features are kept beside a model and learnt from again") {
     // … and other options need no images.
     CHECK(ism::learn(read, {.selection = {.max_words = 5}}).words() == 5);
     CHECK(ism::learn(read, {.box_classifier = {}, .calibrate = false}).box_classifier.empty());
+}
+
+TEST_CASE("training images are searched in the vote space that is asked for") {
+    const auto of_one = features_of(std::span(class_names).first(1), pictures_of(0));
+    CHECK(same_model(ism::learn<ism::Ism>(of_one), ism::learn(of_one)));  // one class, the same votes
+
+    std::vector<ism::TrainingImage> images = pictures_of(0, true);
+    const auto more = pictures_of(1, true);
+    images.insert(images.end(), more.begin(), more.end());
+    const auto of_two = features_of(std::span(class_names).first(2), images);
+    const ism::Model pooled = ism::learn<ism::Ism>(of_two), by_class = ism::learn<ism::Jism>(of_two);
+    CHECK(pooled.channels[0].codebook.means() == by_class.channels[0].codebook.means());
+    CHECK(pooled.calibration.curves != by_class.calibration.curves);
 }
 
 TEST_CASE("a codebook of words a class matches own features alone") {

@@ -89,8 +89,10 @@ namespace detail {
 /// @brief Learns a model from training features: the descriptors of objects are clustered into words, then
 /// each is matched to all words within the threshold, and each match is an occurrence; classifier of boxes
 /// and calibration are learnt from the features of whole images, where these were kept.
+/// @tparam Space  in which the model votes in those images; that of detection, unless it needs depth
 /// @throws Error where an option is out of range or no word is left.
-[[nodiscard]] inline Model learn(const TrainingFeatures& features, const TrainOptions& options = {}) {
+template <ImageVoteSpace Space = Jism>
+[[nodiscard]] Model learn(const TrainingFeatures& features, const TrainOptions& options = {}) {
     check(options);
     expect(!features.objects.empty() && features.feature_count() > 0, "training: objects and features",
            "1 or more", 0);
@@ -100,8 +102,8 @@ namespace detail {
 
     const std::size_t words = model.words(), classes = model.shapes.class_names.size();
     const auto classifier_options = options.box_classifier.value_or(BoxClassifierOptions{});
-    const auto boxes =
-        training_boxes(model, features, classifier_options.max_hypotheses, options.threads, options.progress);
+    const auto boxes = training_boxes<Space>(model, features, classifier_options.max_hypotheses,
+                                             options.threads, options.progress);
     if (options.calibrate)
         model.calibration = fit_calibration(boxes, halves_of_views(features), words, classes, options);
     if (options.box_classifier)

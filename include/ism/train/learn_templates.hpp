@@ -91,7 +91,7 @@ namespace detail {
                      .masks = own_masks(view, model.shapes.objects),
                      .words = WordMap(scene.features, scene.matches, model.words())};
         const DetectOptions search = strongest_proposal_options();
-        const auto votes = votes_of_others(view, scene, search);
+        const auto votes = votes_of_others<Jism>(view, scene, search);
         for (const Detection& guess : find_hypotheses<EpanechnikovKernel, Jism::dimension>(
                  scene, votes, proposal_bandwidth<Jism>(), search))
             images[i].proposals.push_back({guess.class_index, guess.box});

@@ -16,28 +16,30 @@ namespace ism {
 
 /// @brief Learns a model from labelled images: extract_training_features(), then learn(). Background images
 /// are allowed.
+/// @tparam Space      as of learn()
 /// @param class_names  names of the classes that labels point to
 /// @throws Error where an image cannot be learnt from, a class has no object or no feature, an option is out
 /// of range, or no word is left.
-template <Detector D, Descriptor Desc>
+template <Detector D, Descriptor Desc, ImageVoteSpace Space = Jism>
 [[nodiscard]] TypedModel<D, Desc> train(std::span<const std::string> class_names, const TrainingSet& set,
                                         const TrainOptions& options = {},
                                         const Extractor<D, Desc>& extractor = {}) {
     check(options);
     TrainingFeatureOptions collecting = options.features;
     collecting.views = collecting.views && (options.box_classifier || options.calibrate);
-    return TypedModel<D, Desc>(learn(extract_training_features(class_names, set, {AnyExtractor(extractor)},
-                                                               collecting, options.threads, options.progress),
-                                     options));
+    return TypedModel<D, Desc>(
+        learn<Space>(extract_training_features(class_names, set, {AnyExtractor(extractor)}, collecting,
+                                               options.threads, options.progress),
+                     options));
 }
 
 /// @brief Learns a model from images in memory.
-template <Detector D, Descriptor Desc>
+template <Detector D, Descriptor Desc, ImageVoteSpace Space = Jism>
 [[nodiscard]] TypedModel<D, Desc> train(std::span<const std::string> class_names,
                                         std::span<const TrainingImage> images,
                                         const TrainOptions& options = {},
                                         const Extractor<D, Desc>& extractor = {}) {
-    return train<D, Desc>(class_names, training_set(images), options, extractor);
+    return train<D, Desc, Space>(class_names, training_set(images), options, extractor);
 }
 
 }  // namespace ism

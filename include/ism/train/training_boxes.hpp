@@ -65,20 +65,21 @@ using WordIndices = std::vector<Shared<const WordIndex>>;
 }
 
 /// The votes in a training image without those of its own objects.
-[[nodiscard]] inline std::vector<Vote<Jism::dimension>> votes_of_others(const TrainingView& view,
-                                                                        const Scene& scene,
-                                                                        const DetectOptions& search) {
+template <ImageVoteSpace Space>
+[[nodiscard]] std::vector<Vote<Space::dimension>> votes_of_others(const TrainingView& view,
+                                                                  const Scene& scene,
+                                                                  const DetectOptions& search) {
     VoteLimits limits = vote_limits(scene, search);
     limits.without_first = view.first_object, limits.without_end = view.end_object;
-    return cast_votes<Jism>(scene, search.matching, limits);
+    return cast_votes<Space>(scene, search.matching, limits);
 }
 
 /// What they find.
-[[nodiscard]] inline std::vector<Detection> find_hypotheses_of_others(
-    const TrainingView& view, const Scene& scene, const DetectOptions& search,
-    const Bandwidth<Jism::dimension>& bandwidth) {
-    return find_hypotheses<EpanechnikovKernel, Jism::dimension>(scene, votes_of_others(view, scene, search),
-                                                                bandwidth, search);
+template <ImageVoteSpace Space>
+[[nodiscard]] std::vector<Detection> find_hypotheses_of_others(const TrainingView& view, const Scene& scene,
+                                                               const DetectOptions& search) {
+    return find_hypotheses<EpanechnikovKernel, Space::dimension>(
+        scene, votes_of_others<Space>(view, scene, search), default_bandwidth<Space>(), search);
 }
 
 [[nodiscard]] inline TrainingBox labelled_box(const ObjectLabel& label, const WordMap& words) {
@@ -102,12 +103,13 @@ using WordIndices = std::vector<Shared<const WordIndex>>;
 }
 
 /// The boxes of one image: those labelled, and those of hypotheses found without votes of its own objects.
-[[nodiscard]] inline std::vector<TrainingBox> boxes_of_view(const TrainingView& view, const Scene& scene,
-                                                            const DetectOptions& search) {
+template <ImageVoteSpace Space>
+[[nodiscard]] std::vector<TrainingBox> boxes_of_view(const TrainingView& view, const Scene& scene,
+                                                     const DetectOptions& search) {
     const WordMap words(scene.features, scene.matches, scene.model.words());
     std::vector<TrainingBox> boxes;
     for (const ObjectLabel& label : view.labels) boxes.push_back(labelled_box(label, words));
-    for (const Detection& guess : find_hypotheses_of_others(view, scene, search, default_bandwidth<Jism>()))
+    for (const Detection& guess : find_hypotheses_of_others<Space>(view, scene, search))
         boxes.push_back(hypothesis_box(guess.class_index, guess.box, guess.score, view.labels, words));
     return boxes;
 }
@@ -117,11 +119,12 @@ using WordIndices = std::vector<Shared<const WordIndex>>;
 /// @brief The boxes of all training images to learn from: what is labelled, and what the model finds in each
 /// image when it has not seen its objects (leave one image out). Background images give hypotheses too.
 /// @param model  learnt from the same training features
+/// @tparam Space  in which it votes
 /// @return by view; the same for any number of threads
-[[nodiscard]] inline std::vector<TrainingBox> training_boxes(const Model& model,
-                                                             const TrainingFeatures& features,
-                                                             std::size_t max_hypotheses, unsigned threads = 0,
-                                                             const Progress& progress = {}) {
+template <ImageVoteSpace Space = Jism>
+[[nodiscard]] std::vector<TrainingBox> training_boxes(const Model& model, const TrainingFeatures& features,
+                                                      std::size_t max_hypotheses, unsigned threads = 0,
+                                                      const Progress& progress = {}) {
     const std::size_t views = features.views.size();
     if (views == 0) return {};
     const std::size_t images = std::max<std::size_t>(1, features.summary.images);
@@ -133,8 +136,8 @@ using WordIndices = std::vector<Shared<const WordIndex>>;
         const TrainingView& view = features.views[v];
         const Frame blank{.gray = GrayImage(view.width, view.height)};
         ThreadPool pool(1);
-        parts[v] =
-            detail::boxes_of_view(view, detail::training_scene(view, model, words, blank, pool), search);
+        parts[v] = detail::boxes_of_view<Space>(view, detail::training_scene(view, model, words, blank, pool),
+                                                search);
         for (TrainingBox& box : parts[v]) box.view = v;
         counter.step();
     });

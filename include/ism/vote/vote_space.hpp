@@ -98,6 +98,10 @@ inline constexpr bool is_vote_space<VoteSpace<Axes...>> = true;
 template <class S>
 concept VoteSpaceType = detail::is_vote_space<S>;
 
+/// @brief A vote space for which an image alone is enough: it needs neither depth nor poses.
+template <class S>
+concept ImageVoteSpace = VoteSpaceType<S> && !S::needs_depth && !S::needs_pose;
+
 using Ism = VoteSpace<X, Y, Scale>;                   ///< Eq 2; classes, if several, are pooled
 using Jism = VoteSpace<X, Y, Scale, Class>;           ///< Eq 5
 using Ji3sm1 = VoteSpace<X, Y, Scale, Depth, Class>;  ///< Eq 6

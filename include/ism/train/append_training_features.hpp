@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The ism authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ism/core/error.hpp"
+#include "ism/train/training_features.hpp"
+
+namespace ism {
+
+namespace detail {
+
+/// The index of each name in `names`, to which those that it lacks are added.
+[[nodiscard]] inline std::vector<std::uint32_t> join_names(std::vector<std::string>& names,
+                                                           std::span<const std::string> more) {
+    std::vector<std::uint32_t> index;
+    for (const std::string& name : more) {
+        const auto found = std::find(names.begin(), names.end(), name);
+        index.push_back(static_cast<std::uint32_t>(found - names.begin()));
+        if (found == names.end()) names.push_back(name);
+    }
+    return index;
+}
+
+/// The numbers of classes that were joined; a class that is new gets another one where its own is taken.
+[[nodiscard]] inline std::vector<std::int64_t> join_category_ids(std::vector<std::int64_t> ids,
+                                                                 std::span<const std::int64_t> more,
+                                                                 std::span<const std::uint32_t> class_of) {
+    for (std::size_t c = 0; c < more.size(); ++c) {
+        if (class_of[c] < ids.size()) continue;
+        const bool taken = std::find(ids.begin(), ids.end(), more[c]) != ids.end();
+        ids.push_back(taken ? *std::max_element(ids.begin(), ids.end()) + 1 : more[c]);
+    }
+    return ids;
+}
+
+}  // namespace detail
+
+/// @brief Training features of more images: of more classes, or more examples of the same (by name). Category
+/// ids that are known stay; a new class gets the next free one where its own is taken.
+/// @throws Error where the features were found and described in another way.
+[[nodiscard]] inline TrainingFeatures append(TrainingFeatures all, TrainingFeatures more) {
+    expect(all.settings.size() == more.settings.size(), "training features to append: channels",
+           all.settings.size(), more.settings.size());
+    for (std::size_t c = 0; c < all.settings.size(); ++c) {
+        const FeatureSettings &a = all.settings[c], &b = more.settings[c];
+        expect(a.detector == b.detector && a.descriptor == b.descriptor && a.dimension == b.dimension,
+               "training features to append", lazy_text(a.detector, ", ", a.descriptor),
+               lazy_text(b.detector, ", ", b.descriptor));
+        expect(a.options.upsampling == b.options.upsampling, "training features to append: upsampling",
+               a.options.upsampling, b.options.upsampling);
+        expect(a.options.oriented == b.options.oriented, "training features to append: oriented",
+               a.options.oriented, b.options.oriented);
+    }
+    const std::vector<std::uint32_t> class_of = detail::join_names(all.class_names, more.class_names);
+    if (all.category_ids.empty() || more.category_ids.empty())
+        all.category_ids.clear();
+    else
+        all.category_ids = detail::join_category_ids(all.category_ids, more.category_ids, class_of);
+    const auto objects = static_cast<std::uint32_t>(all.objects.size());
+    for (TrainingObject& object : more.objects) {
+        object.class_index = class_of[object.class_index];
+        all.objects.push_back(std::move(object));
+    }
+    for (std::size_t c = 0; c < all.samples.size(); ++c)
+        for (std::size_t i = 0; i < more.samples[c].occurrences.size(); ++i) {
+            Occurrence o = more.samples[c].occurrences[i];
+            o.class_index = class_of[o.class_index];
+            o.object += objects;
+            all.samples[c].occurrences.push_back(o);
+            all.samples[c].descriptors.push_back(more.samples[c].descriptors.row(i));
+        }
+    detail::number_features(all.samples);
+    for (TrainingView& view : more.views) {
+        for (ObjectLabel& label : view.labels) label.class_index = class_of[label.class_index];
+        view.first_object += objects, view.end_object += objects;
+        all.views.push_back(std::move(view));
+    }
+    all.summary.images += more.summary.images;
+    all.summary.features_found += more.summary.features_found;
+    all.summary.features_used += more.summary.features_used;
+    return all;
+}
+
+}  // namespace ism
