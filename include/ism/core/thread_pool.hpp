@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -33,7 +32,8 @@ public:
     /// @brief A pool of `threads` threads, the calling one included (0 = all hardware threads). They start
     /// with the first loop that has work for them.
     /// @throws Error for more than max_threads.
-    explicit ThreadPool(unsigned threads = 1) : size_(thread_count(threads)), others_(size_ - 1) {}
+    explicit ThreadPool(unsigned threads = 1)
+        : size_(thread_count(threads)), failures_(size_), others_(size_ - 1) {}
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
     ~ThreadPool() {
@@ -64,6 +64,10 @@ public:
 
 private:
     using Call = void(const void* body, std::size_t i, unsigned worker);
+    struct Failure {
+        std::size_t at = 0;
+        std::exception_ptr error = nullptr;
+    };
 
     /// Marks the pool as running, for as long as it lives.
     class Running {
@@ -89,8 +93,6 @@ private:
         body_ = body;
         count_ = count;
         next_ = 0;
-        error_ = nullptr;
-        error_at_ = count;
         for (unsigned worker = 1; worker < size_; ++worker)
             if (std::thread& other = others_[worker - 1]; !other.joinable())
                 other = std::thread([this, worker, round = round_.load()] { serve(worker, round); });
@@ -99,7 +101,7 @@ private:
         round_.notify_all();
         work(0);
         for (unsigned left = working_; left != 0; left = working_) wait_while(working_, left);
-        if (error_) std::rethrow_exception(error_);
+        rethrow_first();
     }
 
     /// Loops follow each other closely: spins for some microseconds before it sleeps.
@@ -125,22 +127,31 @@ private:
             try {
                 call_(body_, i, worker);
             } catch (...) {
-                const std::lock_guard lock(mutex_);
-                if (i < error_at_) error_at_ = i, error_ = std::current_exception();
+                failures_[worker] = {i, std::current_exception()};
                 next_ = count_;
             }
         }
     }
 
+    /// Throws what was thrown for the smallest index, if anything was.
+    void rethrow_first() {
+        const Failure* first = nullptr;
+        for (const Failure& failure : failures_)
+            if (failure.error && (first == nullptr || failure.at < first->at)) first = &failure;
+        if (first == nullptr) return;
+        const std::exception_ptr error = first->error;
+        for (Failure& failure : failures_) failure.error = nullptr;
+        std::rethrow_exception(error);
+    }
+
     unsigned size_;
     Call* call_ = nullptr;
     const void* body_ = nullptr;
-    std::size_t count_ = 0, error_at_ = 0;
+    std::size_t count_ = 0;
     std::atomic<std::size_t> next_ = 0;
     std::atomic<std::uint32_t> round_ = 0, working_ = 0;
     std::atomic<bool> running_ = false;
-    std::mutex mutex_;
-    std::exception_ptr error_;
+    std::vector<Failure> failures_;  // of each worker, which does nothing more in its loop
     std::vector<std::thread> others_;
 };
 

@@ -22,7 +22,7 @@ public:
     /// @param threads  that work on a frame (0 = all hardware threads)
     template <Detector D, Descriptor Desc>
     explicit FrameDetector(const TypedModel<D, Desc>& model, unsigned threads = 0)
-        : FrameDetector(model, AnyExtractor(model.extractor()), threads) {}
+        : FrameDetector(model, AnyExtractor(model.extractor(), model.channels[0].features), threads) {}
     template <Detector D, Descriptor Desc>
     explicit FrameDetector(const TypedModel<D, Desc>&& model, unsigned threads = 0) = delete;
 

@@ -59,7 +59,7 @@ public:
     /// @param pool        works on a frame; has to stay as long as this and its scenes
     /// @throws Error where an extractor is not that of its channel.
     FrameMatcher(const Model& model, std::span<const AnyExtractor> extractors, ThreadPool& pool)
-        : model_(model), pool_(pool) {
+        : model_(model), pool_(pool), channels_(extractors.size()) {
         expect(extractors.size() == model.channels.size(), "detection: extractors, one a channel",
                model.channels.size(), extractors.size());
         std::size_t words = 0;
@@ -69,9 +69,9 @@ public:
                        given.dimension == wanted.dimension,
                    "detection: features of the model", lazy_text(wanted.detector, ", ", wanted.descriptor),
                    lazy_text(given.detector, ", ", given.descriptor));
-            channels_.push_back({extractors[c].start(pool),
-                                 Shared<const WordIndex>::make(model.channels[c].codebook),
-                                 static_cast<std::uint32_t>(words), model.channels[c].neighbours});
+            channels_[c] = {extractors[c].start(pool),
+                            Shared<const WordIndex>::make(model.channels[c].codebook),
+                            static_cast<std::uint32_t>(words), model.channels[c].neighbours};
             words += model.channels[c].codebook.size();
         }
     }
@@ -110,8 +110,8 @@ private:
     struct Channel {
         ExtractFeatures extract;
         Shared<const WordIndex> words;
-        std::uint32_t first_word;
-        std::size_t neighbours;
+        std::uint32_t first_word = 0;
+        std::size_t neighbours = 0;
     };
 
     const Model& model_;

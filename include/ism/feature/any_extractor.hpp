@@ -48,8 +48,11 @@ struct FloatFeatures {
 class AnyExtractor {
 public:
     template <Detector D, Descriptor Desc>
-    AnyExtractor(const Extractor<D, Desc>& extractor)
-        : settings_(settings_of(extractor)),
+    AnyExtractor(const Extractor<D, Desc>& extractor) : AnyExtractor(extractor, settings_of(extractor)) {}
+    /// @brief The same where its settings are known, as those of a model are.
+    template <Detector D, Descriptor Desc>
+    AnyExtractor(const Extractor<D, Desc>& extractor, const FeatureSettings& settings)
+        : settings_(settings),
           start_([extractor](const ExtractOptions& options, ThreadPool& pool) -> ExtractFeatures {
               return ExtractFeatures::make<detail::FloatFeatures<D, Desc>>(
                   Extractor<D, Desc>{extractor.detector, extractor.descriptor, options}, pool);

@@ -99,16 +99,14 @@ public:
 
     /// @brief An empty list to return as a result; its memory comes from reuse().
     [[nodiscard]] std::vector<Feature> empty_list() {
-        if (spare_.empty()) return {};
-        std::vector<Feature> list = std::move(spare_.back());
-        spare_.pop_back();
+        if (spare_lists_ == 0) return {};
+        std::vector<Feature> list = std::move(spare_[--spare_lists_]);
         list.clear();
         return list;
     }
     /// @brief Takes back the memory of a list; a few unused ones are kept.
     void reuse(std::vector<Feature> list) {
-        constexpr std::size_t most_spare = 4;
-        if (spare_.size() < most_spare) spare_.push_back(std::move(list));
+        if (spare_lists_ < spare_.size()) spare_[spare_lists_++] = std::move(list);
     }
 
     /// @brief An image, from reuse() where one of this size is there; its pixels are uninitialised.
@@ -132,7 +130,9 @@ private:
     Shared<ThreadPool> own_;
     ThreadPool* pool_;
     std::vector<AlignedVector<float>> rows_;
-    std::vector<std::vector<Feature>> lists_, spare_;
+    std::vector<std::vector<Feature>> lists_;
+    std::array<std::vector<Feature>, 4> spare_;
+    std::size_t spare_lists_ = 0;
     std::array<std::vector<std::uint32_t>, std::size_t(Scratch::count)> numbers_;
     std::vector<detail::Ranked> ranked_;
     std::vector<GrayImage> images_;
