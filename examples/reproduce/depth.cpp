@@ -297,7 +297,7 @@ ism::ReportSection osd_experiment(const Settings& settings, Times& times) {
 /// The car that is seen between two cars.
 ism::ReportSection between_experiment(const Settings& settings, const CarPart& part, Times& times) {
     constexpr double t_ratio = 0.25;
-    const std::size_t count = settings.quick ? 6 : 50;
+    const std::size_t count = settings.quick ? 3 : 50;
     const std::vector<Shot> shots = cars_side_by_side(part.cars.unseen, count, 1, settings.threads);
     std::array<std::size_t, depth_spaces.size()> shown{}, with_ism{}, any{};
     for (const Shot& shot : shots) {

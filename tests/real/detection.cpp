@@ -75,8 +75,11 @@ TEST_CASE("uiuc-cars: precision where it equals recall, by the official rule") {
     const auto train = ism::test::find_data("uiuc-cars/train.json"),
                test = ism::test::find_data("uiuc-cars/test.json");
     if (!train || !test) return;
-    const auto results = evaluated(trained_on(ism::read_dataset(*train)), ism::read_dataset(*test),
-                                   {words_in("jism")}, {.rule = ism::EvaluateOptions::Rule::uiuc});
+    ism::Dataset half = ism::read_dataset(*train);  // of the images, which is enough
+    std::size_t i = 0;
+    std::erase_if(half.images, [&](const auto&) { return i++ % 2 == 1; });
+    const auto results = evaluated(trained_on(half), ism::read_dataset(*test), {words_in("jism")},
+                                   {.rule = ism::EvaluateOptions::Rule::uiuc});
     CHECK(results[0].mean.eer >= 0.96);
 }
 
