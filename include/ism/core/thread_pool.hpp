@@ -151,7 +151,7 @@ private:
     std::atomic<std::size_t> next_ = 0;
     std::atomic<std::uint32_t> round_ = 0, working_ = 0;
     std::atomic<bool> running_ = false;
-    std::vector<Failure> failures_;  // of each worker, which does nothing more in its loop
+    std::vector<Failure> failures_;  // what each worker threw; it takes no more of that loop
     std::vector<std::thread> others_;
 };
 
