@@ -50,6 +50,7 @@ public:
     template <Detector D, Descriptor Desc>
     AnyExtractor(const Extractor<D, Desc>& extractor) : AnyExtractor(extractor, settings_of(extractor)) {}
     /// @brief The same where its settings are known, as those of a model are.
+    /// @param settings  as settings_of(extractor) gives them
     template <Detector D, Descriptor Desc>
     AnyExtractor(const Extractor<D, Desc>& extractor, const FeatureSettings& settings)
         : settings_(settings),
