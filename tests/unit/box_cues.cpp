@@ -113,26 +113,35 @@ TEST_CASE("votes weigh for the boxes that they stand for") {
     CHECK(voted.weight(1, box) == Approx(5));
     CHECK(voted.weight(1, {80, 40, 80, 40}) == 0);
     CHECK(ism::VotedBoxes().weight(0, box) == 0);
+    CHECK(voted.share(0, box) == Approx((2.1 + 2 * beside) / (7.2 + 2 * beside)));
+    CHECK(voted.share(1, box) == Approx(1 - voted.share(0, box)));
+    CHECK(voted.share(0, {80, 40, 80, 40}) == 0.5);
     std::vector<std::uint32_t> agreeing;
     voted.each_agreeing(0, box, 0.9, [&](std::uint32_t vote, float, double) { agreeing.push_back(vote); });
     CHECK(agreeing == std::vector<std::uint32_t>{0});
-    voted.forget(0);
+    voted.thin(0);
     CHECK(voted.weight(0, box) == 0);
     CHECK(voted.weight(1, box) == Approx(5));
+    for (int i = 0; i < 640; ++i) votes.push_back(votes.front());
+    ism::VotedBoxes many(votes, features, shapes);
+    many.thin(0);
+    CHECK(many.weight(0, box) == Approx(2 * 640));
 }
 
 TEST_CASE("cues are worth margins of a template") {
     const ism::CueWeights weights{
-        .patches = 0.5, .words = 0.1, .votes = 0.2, .contrast = 1, .colors = 0.5, .size = 0.3};
+        .patches = 0.5, .words = 0.1, .votes = 0.2, .share = 0.4, .contrast = 1, .colors = 0.5, .size = 0.3};
     const ism::BoxCues cues{.margin = 0.5,
                             .word_logit = -2,
                             .patch_margin = -0.8,
                             .vote_weight = 0.9,
+                            .vote_share = 0.5,
                             .color_overlap = 0.25,
                             .color_odds = 0.7,
                             .log_area = ism::log_area({7, 9, 30, 20}, 60, 40)};
     CHECK(cues.log_area == Approx(std::log(0.25)));
-    CHECK(weights.margin(cues) == Approx(0.5 - 0.4 - 0.2 + 0 - 0.25 + 0.35 + 0.3 * std::log(0.25)));
+    CHECK(weights.margin(cues) ==
+          Approx(0.5 - 0.4 - 0.2 + 0 + 0.4 * std::log(0.5) - 0.25 + 0.35 + 0.3 * std::log(0.25)));
     CHECK(ism::CueWeights().margin(cues) == 0.5);
     CHECK(ism::CueWeights{.patches = 2}.margin({.margin = 0.1, .patch_margin = 3}) == Approx(0.1));
     const ism::BoxReasons odds = weights.reasons(cues).in_odds(4, -1);
@@ -140,6 +149,7 @@ TEST_CASE("cues are worth margins of a template") {
     CHECK(odds.patches == Approx(-1.6));
     CHECK(odds.words == Approx(-0.8));
     CHECK(odds.votes == Approx(0).margin(1e-9));
+    CHECK(odds.share == Approx(1.6 * std::log(0.5)));
     CHECK(odds.contrast == Approx(-1));
     CHECK(odds.colors == Approx(1.4));
     CHECK(odds.size == Approx(1.2 * std::log(0.25)));

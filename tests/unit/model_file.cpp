@@ -476,7 +476,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {": class names: expected 1 or more", [](File& f) { f.metadata["class_names"] = "[]"; }},
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 15, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
+        {": format version: expected 16, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
         {": object_places: expected -1e+06 ... 1e+06",
          [&](File& f) { set(f, "object_places", 4, ism::no_depth); }},
         {": depth and size of an object: expected 0 or more",

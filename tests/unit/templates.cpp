@@ -241,7 +241,7 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
         }
         return ism::detail::fit_cue_weights(judged, 2);
     };
-    const ism::CueWeights known{.votes = 0.3, .contrast = 1.5, .colors = 0.5, .size = 0.2};
+    const ism::CueWeights known{.votes = 0.3, .share = 0.25, .contrast = 1.5, .colors = 0.5, .size = 0.2};
     const auto with = [&](double patches, double words) {
         ism::CueWeights weights = known;
         weights.patches = patches, weights.words = words;

@@ -108,6 +108,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
         const std::uint32_t c = detection.class_index;
         BoxCues cues{.margin = margins[i],
                      .vote_weight = voted.weight(c, detection.box),
+                     .vote_share = voted.share(c, detection.box),
                      .log_area = log_area(detection.box, color.width(), color.height())};
         if (encoder)
             cues.patch_margin =

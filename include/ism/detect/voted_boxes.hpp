@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ism/core/callable.hpp"
@@ -63,8 +64,25 @@ public:
         return sum;
     }
 
-    /// @brief Forgets the votes of a class, for the memory that they take.
-    void forget(std::uint32_t class_index) { of_class_[class_index] = {}; }
+    /// @brief The share that a class has in the weight of all votes that agree with a box, as if it and all
+    /// others together had a tenth more each: one half where no votes agree.
+    [[nodiscard]] double share(std::uint32_t class_index, const Box& box) const {
+        double all = 0;
+        for (std::uint32_t c = 0; c < of_class_.size(); ++c) all += weight(c, box);
+        return (weight(class_index, box) + 0.1) / (all + 0.2);
+    }
+
+    /// @brief Keeps every 64th vote of a class at 64 times its weight, for the memory that they take: enough
+    /// for sums over many classes.
+    void thin(std::uint32_t class_index) {
+        constexpr std::size_t step = 64;
+        std::vector<Voted> kept;
+        for (std::size_t i = step / 2; i < of_class_[class_index].size(); i += step) {
+            kept.push_back(of_class_[class_index][i]);
+            kept.back().weight *= float(step);
+        }
+        of_class_[class_index] = std::move(kept);
+    }
 
 private:
     struct Voted {

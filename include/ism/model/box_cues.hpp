@@ -30,6 +30,7 @@ struct BoxCues {
     double word_logit = 0;     ///< of the words in the box, see BoxClassifier
     double patch_margin = 0;   ///< of what its patches look like, see PatchClassifier
     double vote_weight = 0;    ///< of the votes that stand for about this box
+    double vote_share = 1;     ///< of the class in that of all classes, see VotedBoxes::share()
     double color_overlap = 1;  ///< of figure and ground, 0 … 1, see color_overlap()
     double color_odds = 0;     ///< of figure and ground, by the colours of the class, see color_odds()
     double log_area = 0;       ///< of the box in parts of the picture: false boxes are mostly small
@@ -40,6 +41,7 @@ struct BoxCues {
 struct BoxReasons {
     double look = 0;  ///< the template
     double patches = 0, words = 0, votes = 0;
+    double share = 0;     ///< of the class in all votes there
     double contrast = 0;  ///< colours shared with what is around
     double colors = 0;    ///< those of the class
     double size = 0;
@@ -49,7 +51,7 @@ struct BoxReasons {
 
     [[nodiscard]] bool empty() const { return look == 0 && any == 0; }
     [[nodiscard]] double sum() const {
-        return look + patches + words + votes + contrast + colors + size + any + rivals + mask;
+        return look + patches + words + votes + share + contrast + colors + size + any + rivals + mask;
     }
     /// @brief Margins in logarithms of odds, by the curve of a class (Calibration).
     [[nodiscard]] BoxReasons in_odds(double slope, double offset) const {
@@ -57,6 +59,7 @@ struct BoxReasons {
                 .patches = slope * patches,
                 .words = slope * words,
                 .votes = slope * votes,
+                .share = slope * share,
                 .contrast = slope * contrast,
                 .colors = slope * colors,
                 .size = slope * size,
@@ -70,6 +73,7 @@ struct CueWeights {
     double patches = 0;   ///< a margin of the patches below 0: they speak against boxes, not for them
     double words = 0;     ///< a logit of the words
     double votes = 0;     ///< e times the vote weight
+    double share = 0;     ///< e times the share in the votes of all classes
     double contrast = 0;  ///< colours of figure and ground that have nothing in common
     double colors = 0;    ///< a logarithm of odds of the colours of the class
     double size = 0;      ///< e times the area
@@ -81,6 +85,7 @@ struct CueWeights {
                 .patches = patches * std::min(0.0, cues.patch_margin),
                 .words = words * cues.word_logit,
                 .votes = votes * std::log(0.1 + cues.vote_weight),
+                .share = share * std::log(cues.vote_share),
                 .contrast = -contrast * cues.color_overlap,
                 .colors = colors * cues.color_odds,
                 .size = size * cues.log_area};

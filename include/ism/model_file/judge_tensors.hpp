@@ -141,17 +141,17 @@ inline void templates_to_tensors(std::span<const BoxTemplate> templates, TensorF
 }
 
 inline void cue_weights_to_tensor(const CueWeights& weights, TensorFile& file) {
-    const auto& [patches, words, votes, contrast, colors, size] = weights;
+    const auto& [patches, words, votes, share, contrast, colors, size] = weights;
     file.tensors["cue_weights"] =
-        make_tensor<double>(std::array{patches, words, votes, contrast, colors, size}, {6});
+        make_tensor<double>(std::array{patches, words, votes, share, contrast, colors, size}, {7});
 }
 
 [[nodiscard]] inline CueWeights cue_weights_from_tensor(const TensorFile& file) {
-    const auto weights = values<double>(file, "cue_weights", {6});
+    const auto weights = values<double>(file, "cue_weights", {7});
     for (const double weight : weights)
         expect<FileError>(weight >= 0 && weight <= 1000, lazy_text(file.source, ": cue_weights"),
                           "0 ... 1000", weight);
-    return {weights[0], weights[1], weights[2], weights[3], weights[4], weights[5]};
+    return {weights[0], weights[1], weights[2], weights[3], weights[4], weights[5], weights[6]};
 }
 
 inline void figures_to_tensor(std::span<const ClassFigure> figures, TensorFile& file) {

@@ -28,7 +28,7 @@ namespace ism {
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 15;
+inline constexpr std::int64_t model_format_version = 16;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {

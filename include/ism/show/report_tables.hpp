@@ -90,6 +90,7 @@ namespace detail {
     add("what patches look like, wherever they lie", reasons.patches);
     add("words in the box", reasons.words);
     add("votes that agree with the box", reasons.votes);
+    add("share of the class in all votes that do", reasons.share);
     add("colours shared with what is around", reasons.contrast);
     add("colours of the class", reasons.colors);
     add("size: false boxes are mostly small", reasons.size);

@@ -116,6 +116,7 @@ struct FoldJudges {
             BoxCues cues{.margin = box.score,
                          .patch_margin = judges.patches.margin(c, encoder.encode(pyramid, box.box, scratch)),
                          .vote_weight = image.voted.weight(c, box.box),
+                         .vote_share = image.voted.share(c, box.box),
                          .color_overlap = color_overlap(colors),
                          .color_odds = color_odds(colors, judges.colors[c]),
                          .log_area = log_area(box.box, image.color.width(), image.color.height())};
@@ -154,7 +155,7 @@ struct FoldJudges {
 [[nodiscard]] inline CueWeights fit_cue_weights(std::span<const JudgedBox> judged, std::size_t classes) {
     constexpr std::pair<double CueWeights::*, double> most[] = {{&CueWeights::patches, 1.2},
                                                                 {&CueWeights::words, 0.1}};
-    CueWeights best{.votes = 0.3, .contrast = 1.5, .colors = 0.5, .size = 0.2};
+    CueWeights best{.votes = 0.3, .share = 0.25, .contrast = 1.5, .colors = 0.5, .size = 0.2};
     double least_loss = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 3; ++round)
         for (const auto& [weight, limit] : most)

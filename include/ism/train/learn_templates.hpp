@@ -98,7 +98,7 @@ namespace detail {
         images[i].asked = asked_proposals(images[i].proposals, votes, asked_classes, model.shapes);
         images[i].voted = VotedBoxes(votes, scene.features, model.shapes);
         for (std::uint32_t c = 0; c < classes; ++c)
-            if (left_out[c][i]) images[i].asked[c] = {}, images[i].voted.forget(c);
+            if (left_out[c][i]) images[i].asked[c] = {}, images[i].voted.thin(c);
         counter.step();
     });
     return images;
