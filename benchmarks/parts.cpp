@@ -76,6 +76,7 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
          {std::pair{"patches do not judge", &ism::CueWeights::patches},
           std::pair{"words do not judge", &ism::CueWeights::words},
           std::pair{"votes do not judge", &ism::CueWeights::votes},
+          std::pair{"shares of votes do not judge", &ism::CueWeights::share},
           std::pair{"contrast of colours does not judge", &ism::CueWeights::contrast},
           std::pair{"colours of classes do not judge", &ism::CueWeights::colors},
           std::pair{"size does not judge", &ism::CueWeights::size}}) {
@@ -86,6 +87,7 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
     add("no mining of negatives", finder(judged({.mining_rounds = 0}), search));
     add("no jittered copies", finder(judged({.jittered_copies = 0}), search));
     add("no turned copies", finder(judged({.turned_copies = 0}), search));
+    add("no copies before other ground", finder(judged({.ground_copies = 0}), search));
     auto other = recognition;
     other.rescorer.max_classes = 1;
     add("asked about their own class alone", finder(model, other));

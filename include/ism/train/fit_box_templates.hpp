@@ -21,6 +21,7 @@
 #include "ism/hog/propose_boxes.hpp"
 #include "ism/hog/search_box.hpp"
 #include "ism/train/linear_svm.hpp"
+#include "ism/train/other_ground.hpp"
 #include "ism/train/template_examples.hpp"
 
 namespace ism::detail {
@@ -94,6 +95,7 @@ public:
           fold_of_(fold_of),
           options_(options),
           turned_copies_(object_count(images) <= 1000 ? options.turned_copies : 0),
+          ground_copies_(object_count(images) <= 1000 ? options.ground_copies : 0),
           max_rows_(std::min<std::size_t>(6000, 40000 / classes)),
           examples_(classes, std::vector<TemplateExamples>(images.size())) {
         check(options);
@@ -123,14 +125,19 @@ public:
     /// Describes the boxes of an image that are known beforehand.
     void describe(std::size_t image, const HogPyramid& pyramid, ThreadPool& pool) {
         Random random(image + 1);
-        HogPyramid of_turned;
+        HogPyramid of_pictures;
+        std::vector<const TemplateImage*> others;  // seen by the same fits
+        for (std::size_t i = 0; i < images_.size(); ++i)
+            if (i != image && fold_of_[i] == fold_of_[image]) others.push_back(&images_[i]);
         for (std::uint32_t c = 0; c < examples_.size(); ++c) {
             if (!learns_from(images_[image], c)) continue;
             const BoxGrid& grid = fits_[0].templates[c].grid;
             TemplateExamples& examples = examples_[c][image];
             examples = first_examples(images_[image], pyramid, c, grid, options_.jittered_copies,
                                       negatives_of_image(c), random);
-            add_turned_examples(images_[image], c, grid, turned_copies_, random, of_turned, pool, examples);
+            add_turned_examples(images_[image], c, grid, turned_copies_, random, of_pictures, pool, examples);
+            add_examples_before(others, images_[image], c, grid, ground_copies_, random, of_pictures, pool,
+                                examples);
         }
     }
     /// Lets templates look for their class where detection would, and keeps what they take for it wrongly.
@@ -251,7 +258,7 @@ private:
     std::span<const TemplateImage> images_;
     std::span<const std::size_t> fold_of_;
     TemplateOptions options_;
-    int turned_copies_;
+    int turned_copies_, ground_copies_;
     std::size_t max_rows_;                                 // of negatives of a class
     std::vector<std::size_t> learnt_from_;                 // images, of each class
     std::vector<std::vector<TemplateExamples>> examples_;  // of each class and image

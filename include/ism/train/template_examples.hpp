@@ -33,6 +33,7 @@ struct TemplateOptions {
     int cells = 100;          ///< of a box, about
     int jittered_copies = 2;  ///< of each object's box, moved by a few hundredths
     int turned_copies = 2;    ///< … and turned by 2 to 5 degrees, of up to a thousand objects
+    int ground_copies = 1;    ///< … and cut out and put before the ground of other images
     int mining_rounds = 2;    ///< searches of the training images for boxes that are found wrongly
     double cost = 0.05;       ///< C of the support vector machine
 };
@@ -46,6 +47,8 @@ inline void check(const TemplateOptions& options) {
            "0 ... 100", options.jittered_copies);
     expect(options.turned_copies >= 0 && options.turned_copies <= 100, "TemplateOptions::turned_copies",
            "0 ... 100", options.turned_copies);
+    expect(options.ground_copies >= 0 && options.ground_copies <= 100, "TemplateOptions::ground_copies",
+           "0 ... 100", options.ground_copies);
     expect(options.mining_rounds >= 0 && options.mining_rounds <= 100, "TemplateOptions::mining_rounds",
            "0 ... 100", options.mining_rounds);
     expect(options.cost >= 1e-9 && options.cost <= 1e9, "TemplateOptions::cost", "1e-9 ... 1e9",
@@ -207,6 +210,22 @@ private:
     return examples;
 }
 
+/// Adds what a picture shows.
+/// @param pyramid  for it
+inline void add_picture(const ObjectPicture& object, std::uint32_t class_index, const BoxGrid& grid,
+                        HogPyramid& pyramid, ThreadPool& pool, TemplateExamples& examples) {
+    const ProposedBox shown[] = {{class_index, object.box}};
+    pyramid.assign(object.picture, finest_level(shown), pool);
+    CellRows rows(pyramid, grid);
+    rows.append(object.box, false, examples.plain);
+    rows.append(object.box, true, examples.mirrored);
+}
+
+/// What a picture has to show around a box, as a part of the root of its area: two cells.
+[[nodiscard]] inline double picture_margin(const BoxGrid& grid) {
+    return 2 / std::sqrt(double(grid.columns * grid.rows));
+}
+
 /// Adds the objects of a class turned a little to either side: as few training images show them, but others
 /// will, where animals graze or rear, cars stand on a slope or the camera is held askew.
 /// @param pyramid  for pictures of them
@@ -216,14 +235,9 @@ inline void add_turned_examples(const TemplateImage& image, std::uint32_t class_
     constexpr double least_rad = 2 * std::numbers::pi / 180, most_rad = 5 * std::numbers::pi / 180;
     for (const ObjectLabel& label : image.labels)
         for (int k = 0; k < copies && label.class_index == class_index; ++k) {
-            const double angle_rad = random.uniform(least_rad, most_rad) * (k % 2 == 0 ? 1 : -1),
-                         two_cells = 2 / std::sqrt(double(grid.columns * grid.rows));
-            const TurnedObject turned = turned_object(image.color, label.box, angle_rad, two_cells);
-            const ProposedBox shown[] = {{class_index, turned.box}};
-            pyramid.assign(turned.picture, finest_level(shown), pool);
-            CellRows rows(pyramid, grid);
-            rows.append(turned.box, false, examples.plain);
-            rows.append(turned.box, true, examples.mirrored);
+            const double angle_rad = random.uniform(least_rad, most_rad) * (k % 2 == 0 ? 1 : -1);
+            add_picture(turned_object(image.color, label.box, angle_rad, picture_margin(grid)), class_index,
+                        grid, pyramid, pool, examples);
         }
 }
 

@@ -16,8 +16,8 @@
 
 namespace ism::detail {
 
-/// An object as it looks where it is turned a little: a picture of its box and of what lies around.
-struct TurnedObject {
+/// A picture of an object's box and of what lies around, as an example of how it may look.
+struct ObjectPicture {
     RgbImage picture;
     Box box;  ///< in the picture
 };
@@ -59,8 +59,8 @@ private:
 /// smaller.
 /// @param angle_rad  clockwise
 /// @param margin     around the box, as a part of the root of its area
-[[nodiscard]] inline TurnedObject turned_object(ImageView<const Rgb> image, const Box& box, double angle_rad,
-                                                double margin) {
+[[nodiscard]] inline ObjectPicture turned_object(ImageView<const Rgb> image, const Box& box, double angle_rad,
+                                                 double margin) {
     constexpr double max_side = 400;
     const double side = std::sqrt(box.area()), factor = std::min(1.0, max_side / side),
                  cosine = std::cos(angle_rad), sine = std::sin(angle_rad);
@@ -71,7 +71,7 @@ private:
     const BoxRegion seen({x - seen_width / 2, y - seen_height / 2, seen_width, seen_height}, 0, image.width(),
                          image.height());
     const ColorSampler color(image, seen, factor);
-    TurnedObject turned{
+    ObjectPicture turned{
         .picture = RgbImage(int(std::ceil(width * factor)), int(std::ceil(height * factor))),
         .box = {margin * side * factor, margin * side * factor, box.width * factor, box.height * factor}};
     for (int row = 0; row < turned.picture.height(); ++row)
