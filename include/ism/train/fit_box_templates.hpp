@@ -128,7 +128,9 @@ public:
         HogPyramid of_pictures;
         std::vector<const TemplateImage*> others;  // seen by the same fits
         for (std::size_t i = 0; i < images_.size(); ++i)
-            if (i != image && fold_of_[i] == fold_of_[image]) others.push_back(&images_[i]);
+            if (i != image && fold_of_[i] == fold_of_[image] && images_[i].color.width() >= 2 &&
+                images_[i].color.height() >= 2)
+                others.push_back(&images_[i]);
         for (std::uint32_t c = 0; c < examples_.size(); ++c) {
             if (!learns_from(images_[image], c)) continue;
             const BoxGrid& grid = fits_[0].templates[c].grid;
