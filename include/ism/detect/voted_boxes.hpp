@@ -67,9 +67,13 @@ public:
     /// @brief The share that a class has in the weight of all votes that agree with a box, as if it and all
     /// others together had a tenth more each: one half where no votes agree.
     [[nodiscard]] double share(std::uint32_t class_index, const Box& box) const {
-        double all = 0;
-        for (std::uint32_t c = 0; c < of_class_.size(); ++c) all += weight(c, box);
-        return (weight(class_index, box) + 0.1) / (all + 0.2);
+        double own = 0, all = 0;
+        for (std::uint32_t c = 0; c < of_class_.size(); ++c) {
+            const double of_class = weight(c, box);
+            all += of_class;
+            if (c == class_index) own = of_class;
+        }
+        return (own + 0.1) / (all + 0.2);
     }
 
     /// @brief Keeps every 64th vote of a class at 64 times its weight, for the memory that they take: enough
