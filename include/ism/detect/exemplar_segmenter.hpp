@@ -12,6 +12,7 @@
 #include "ism/core/box_region.hpp"
 #include "ism/core/color_bins.hpp"
 #include "ism/core/frame_colors.hpp"
+#include "ism/core/geometry.hpp"
 #include "ism/core/guided_filter.hpp"
 #include "ism/core/resize_area.hpp"
 #include "ism/detect/exemplar_prior.hpp"
@@ -44,10 +45,10 @@ struct ExemplarSegmenter {
     PatchSegmenter votes = {};     ///< for classes without exemplars
 
     [[nodiscard]] Segmentation segment(const Detection& hypothesis, const Scene& scene) const;
-    /// @brief The same by these of the model's exemplars and these colours.
+    /// @brief Cuts out what a box shows, by these of the model's exemplars and these colours.
     /// @param colors  FigureColors; may be empty
     [[nodiscard]] Segmentation segment_by(std::span<const std::uint32_t> exemplar_indices,
-                                          std::span<const float> colors, const Detection& hypothesis,
+                                          std::span<const float> colors, const Box& box,
                                           const Scene& scene) const;
     /// @brief What was cut out speaks for or against detections, see weigh_masks().
     void judge(std::vector<Detection>& detections, const Scene& scene) const {
@@ -84,14 +85,13 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
         if (model.shapes.objects[model.exemplars[e].object].class_index == hypothesis.class_index)
             of_class.push_back(e);
     if (of_class.empty() || !(hypothesis.box.area() >= 1)) return votes.segment(hypothesis, scene);
-    return segment_by(of_class, model.figure_colors_of(hypothesis.class_index), hypothesis, scene);
+    return segment_by(of_class, model.figure_colors_of(hypothesis.class_index), hypothesis.box, scene);
 }
 
 inline Segmentation ExemplarSegmenter::segment_by(std::span<const std::uint32_t> exemplar_indices,
-                                                  std::span<const float> colors, const Detection& hypothesis,
+                                                  std::span<const float> colors, const Box& box,
                                                   const Scene& scene) const {
     const Model& model = scene.model;
-    const Box& box = hypothesis.box;
     const FrameColors frame_colors(scene.frame);
     const RgbImage& color = frame_colors.image();
     const BoxRegion region(box, margin, color.width(), color.height());

@@ -97,11 +97,8 @@ inline constexpr std::size_t lender_parts = 6;
         if (own_part != part) continue;
         const Frame frame{.gray = to_gray(view->pixels), .color = view->pixels};
         ThreadPool pool(1);
-        Detection whole;
-        whole.class_index = model.shapes.objects[model.exemplars[exemplar].object].class_index;
-        whole.box = box;
         const Segmentation cut_out = ExemplarSegmenter{}.segment_by(
-            exemplars, colors, whole, Scene{.frame = frame, .model = model, .pool = pool});
+            exemplars, colors, box, Scene{.frame = frame, .model = model, .pool = pool});
         masks.push_back(measure_mask(cut_out, cut_out.box.value_or(box)));
     }
     return masks;
