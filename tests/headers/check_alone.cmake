@@ -32,7 +32,8 @@ execute_process(COMMAND "${CLANG}" -std=c++20 ${FLAGS} -Wall -Wextra -Wpedantic 
                         -include "${SCRATCH}/others.hpp" -Xclang -emit-module -x c++ -c "${SCRATCH}/module.modulemap" -o "${SCRATCH}/all.pcm"
                 RESULT_VARIABLE result ERROR_VARIABLE output)
 if(NOT result EQUAL 0)
-    message(FATAL_ERROR "headers that do not include what they name:\n${output}")
+    string(REPLACE "\n" "\n  " output "${output}") # indented lines stay whole
+    message(FATAL_ERROR "headers that do not include what they name:\n  ${output}")
 endif()
 list(LENGTH HEADERS count)
 message(STATUS "${count} headers compile alone")

@@ -7,20 +7,23 @@ file(GLOB toy_headers CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/examples
 set(all_headers ${library_headers} ${toy_headers})
 
 # Every header alone: what it names of ours it includes.
-set(clang "")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     set(clang "${CMAKE_CXX_COMPILER}")
 else()
     find_program(ISM_CLANG clang++)
-    if(ISM_CLANG)
-        set(clang "${ISM_CLANG}")
-    endif()
+    set(clang "${ISM_CLANG}")
 endif()
 if(clang)
     add_test(NAME headers/alone
              COMMAND "${CMAKE_COMMAND}" "-DCLANG=${clang}" "-DFLAGS=${flags}" "-DHEADERS=${all_headers}"
                      "-DFOLDERS=${PROJECT_SOURCE_DIR}/include;${PROJECT_SOURCE_DIR}/examples" "-DSCRATCH=${test_build_dir}/headers/alone"
                      -P "${test_dir}/headers/check_alone.cmake")
+    # One that names what it does not include is found.
+    add_test(NAME headers/refused
+             COMMAND "${CMAKE_COMMAND}" "-DCLANG=${clang}" "-DHEADERS=declares.hpp;names.hpp" "-DFOLDERS=${test_dir}/headers/refused"
+                     "-DSCRATCH=${test_build_dir}/headers/refused" -P "${test_dir}/headers/check_alone.cmake")
+    set_tests_properties(headers/refused PROPERTIES LABELS headers
+                         PASS_REGULAR_EXPRESSION "names.hpp:[0-9:]+ error: .*'Declared' must be imported")
 else()
     add_test(NAME headers/alone COMMAND "${CMAKE_COMMAND}" -E echo "skipped: clang++ is not installed")
 endif()
