@@ -22,7 +22,7 @@ foreach(header IN LISTS HEADERS)
     string(REGEX MATCHALL "\n *# *include *<[^>]*>" includes "${text}")
     list(APPEND others ${includes})
 endforeach()
-list(FILTER others EXCLUDE REGEX "<stb")
+list(FILTER others EXCLUDE REGEX "<stb") # of which macros make what they are
 list(REMOVE_DUPLICATES others)
 string(CONCAT others ${others})
 file(WRITE "${SCRATCH}/others.hpp" "${others}\n")
