@@ -3,8 +3,8 @@
 cmake_minimum_required(VERSION 3.22)
 
 # CLANG, FLAGS, HEADERS, FOLDERS they lie in, SCRATCH: each header names only what it includes, directly or not. To clang's
-# modules each is a module of its own, which sees others only where it includes them, though all are compiled at once: a
-# header after the other takes ten times as long. What other libraries declare all of them see: that each includes what it
+# modules each is a module of its own, which sees others only where it includes them, though all are compiled at once:
+# one header after another takes ten times as long. What other libraries declare all of them see: that each includes what it
 # names of the standard library and of JSON is for check_standard_includes and check_includes to say.
 file(REMOVE_RECURSE "${SCRATCH}")
 file(MAKE_DIRECTORY "${SCRATCH}")

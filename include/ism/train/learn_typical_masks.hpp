@@ -93,13 +93,14 @@ inline constexpr std::size_t lender_parts = 6;
     const FigureColors colors = learn_figure_colors(colored);
     const std::size_t step = (lenders.size() + most - 1) / most;
     for (std::size_t i = 0; i < lenders.size(); i += step) {
-        const auto& [exemplar, view, box, own_part] = lenders[i];
-        if (own_part != part) continue;
-        const Frame frame{.gray = to_gray(view->pixels), .color = view->pixels};
+        const MaskLender& lender = lenders[i];
+        if (lender.part != part) continue;
+        const auto& pixels = lender.view->pixels;
+        const Frame frame{.gray = to_gray(pixels), .color = pixels};
         ThreadPool pool(1);
         const Segmentation cut_out = ExemplarSegmenter{}.segment_by(
-            exemplars, colors, box, Scene{.frame = frame, .model = model, .pool = pool});
-        masks.push_back(measure_mask(cut_out, cut_out.box.value_or(box)));
+            exemplars, colors, lender.box, Scene{.frame = frame, .model = model, .pool = pool});
+        masks.push_back(measure_mask(cut_out, cut_out.box.value_or(lender.box)));
     }
     return masks;
 }
