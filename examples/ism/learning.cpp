@@ -43,8 +43,8 @@ ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& featur
 ism::Model learn_templates(ism::Model model, const ism::TrainingFeatures& features,
                            const ism::TrainOptions& options, const ism::TemplateOptions& templates) {
     model = ism::masks_from_boxes(std::move(model), features, options.threads, options.progress);
-    model = ism::learn_templates(std::move(model), features, templates, options.threads, options.progress);
-    return ism::learn_exemplars(std::move(model), features, 300, options.threads);
+    model = ism::learn_exemplars(std::move(model), features, 300, options.threads);
+    return ism::learn_templates(std::move(model), features, templates, options.threads, options.progress);
 }
 
 ism::Model learn_rgbd(std::span<const std::string> class_names, const ism::TrainingSet& set,

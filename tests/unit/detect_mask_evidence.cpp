@@ -42,7 +42,7 @@ TEST_CASE("masks are measured in their boxes") {
 
     ism::Segmentation comb = columns(20, 40, 1);
     for (int y = 0; y < 40; y += 2)
-        for (int x = 0; x < 20; ++x) comb.mask(x, y) = 0;
+        for (int x = 0; x < 20; ++x) comb.figure(x, y) = 0;
     CHECK(ism::measure_mask(comb, {100, 50, 40, 40}).raggedness ==
           Approx(std::log(20.0 * 20 * 42 * 42 / 400)));
     CHECK(ism::measure_mask(ism::Segmentation{}, {0, 0, 5, 5}) == ism::MaskMeasures{});
@@ -52,7 +52,7 @@ TEST_CASE("masks are measured in their boxes") {
         ism::Segmentation part{
             .figure = ism::GrayImage(side, side), .ground = {}, .mask = ism::Mask(side, side)};
         for (int y = side / 4; y < 3 * side / 4; ++y)
-            for (int x = side / 4; x < 3 * side / 4; ++x) part.mask(x, y) = 1;
+            for (int x = side / 4; x < 3 * side / 4; ++x) part.figure(x, y) = 1;
         return ism::measure_mask(part, {0, 0, double(side), double(side)});
     };
     CHECK(square(200).raggedness == Approx(std::log(16)));

@@ -235,37 +235,16 @@ TEST_CASE("objects are cut out to the pixel by exemplars of other colours") {
         }
 }
 
-TEST_CASE("the box of a figure lies half way between those of its mask and of what is likely") {
+TEST_CASE("the box of what was cut out is that of its mask, unless that is hardly where it was judged") {
     ism::Segmentation part;
-    CHECK(ism::figure_box(part, 0.05).area() == 0);
-    part.x = 7, part.y = 11, part.figure = ism::GrayImage(20, 10), part.mask = ism::Mask(20, 10);
-    CHECK(ism::figure_box(part, 0.05).area() == 0);
-    for (int y = 2; y < 6; ++y)
-        for (int x = 4; x < 14; ++x) part.figure(x, y) = 0.5f;
-    const ism::Box whole = ism::figure_box(part, 0);  // without a mask by what is likely alone
-    CHECK(whole.x == 11);
-    CHECK(whole.y == 13);
-    CHECK(whole.width == 10);
-    CHECK(whole.height == 4);
-    const ism::Box inner = ism::figure_box(part, 0.05);  // half a column of ten, a fifth of a row of four
-    CHECK(inner.x == Approx(11.5));
-    CHECK(inner.width == Approx(9));
-    CHECK(inner.y == Approx(13.2));
-    CHECK(inner.height == Approx(3.6));
-    part.mask(4, 3) = part.mask(9, 4) = 1;
-    const ism::Box middle = ism::figure_box(part, 0.05);
-    CHECK(middle.x == Approx((11 + 11.5) / 2));
-    CHECK(middle.width == Approx((6 + 9) / 2.0));
-    CHECK(middle.y == Approx((14 + 13.2) / 2));
-    CHECK(middle.height == Approx((2 + 3.6) / 2));
-    part.mask = ism::Mask(20, 10);
-    part.figure(19, 9) = 0.1f;  // a stray pixel, half a percent of all
-    CHECK(ism::figure_box(part, 0.01).width == Approx(9.8).margin(0.1));
-    const ism::Box between = ism::box_between({0, 0, 10, 20}, {4, 2, 2, 4}, 0.75);
-    CHECK(between.x == 3);
-    CHECK(between.y == 1.5);
-    CHECK(between.width == 4);
-    CHECK(between.height == 8);
+    part.x = 7, part.y = 11, part.mask = ism::Mask(20, 10);
+    const ism::Box judged{10, 12, 12, 4};
+    CHECK(ism::cut_out_box(part, judged) == judged);  // no mask
+    part.mask(4, 2) = part.mask(13, 5) = 1;
+    CHECK(ism::cut_out_box(part, judged) == ism::Box{11, 13, 10, 4});
+    const ism::Box elsewhere{18, 12, 12, 4};
+    CHECK(ism::iou(elsewhere, ism::cut_out_box(part, judged)) < 0.3);
+    CHECK(ism::cut_out_box(part, elsewhere) == elsewhere);
 }
 
 TEST_CASE("what was cut out says where an object lies whose box was off") {
@@ -283,9 +262,10 @@ TEST_CASE("what was cut out says where an object lies whose box was off") {
         const auto exact = cut_out(animals(), image.frame, truth);
         REQUIRE(exact.box.has_value());
         CHECK(ism::iou(*exact.box, truth) > 0.93);
-        ism::ExemplarSegmenter still;
-        still.placing = 0;
-        const auto unmoved = cut_out(animals(), image.frame, truth, still);
+        ism::Model still = animals();  // as if masks of the class said nothing of where an object lies
+        still.placings.resize(1);
+        for (ism::Placing::Side& side : still.placings[0].sides) side.share = 0;
+        const auto unmoved = cut_out(still, image.frame, truth);
         REQUIRE(unmoved.box.has_value());
         CHECK(ism::iou(*unmoved.box, truth) == Approx(1));
     }
@@ -408,6 +388,10 @@ TEST_CASE("what exemplars cannot be learnt or used with is refused by name") {
     CHECK_THROWS_WITH(ism::learn_exemplars({}, features),
                       Catch::Contains("exemplars: objects of the model: expected 1, got 0"));
     CHECK_THROWS_WITH(model_of(features, 0), Catch::Contains("expected 1 or more"));
+    ism::Model late = unlearnt(features);
+    late.templates.resize(1);
+    CHECK_THROWS_WITH(ism::learn_exemplars(late, features),
+                      "exemplars: templates of the model: expected none before learn_exemplars(), got 1");
     using Segmenter = ism::ExemplarSegmenter;
     const auto error = [](const char* name, const Segmenter& options) {
         CHECK_THROWS_WITH(ism::check(options), Catch::Contains(name));
@@ -419,8 +403,8 @@ TEST_CASE("what exemplars cannot be learnt or used with is refused by name") {
     error("ExemplarOptions::sharpness", {.exemplars = {.sharpness = -1}});
     error("ExemplarOptions::shift_cost", {.exemplars = {.shift_cost = 3}});
     error("ExemplarOptions::agreement", {.exemplars = {.agreement = std::nan("")}});
-    error("ExemplarSegmenter::placing", {.placing = 1.5});
-    error("ExemplarSegmenter::outside", {.outside = -0.1});
+    error("ExemplarSegmenter::least_piece", {.least_piece = 2});
+    error("ExemplarSegmenter::cuts", {.cuts = 0});
     error("ExemplarSegmenter::margin", {.margin = -1});
     error("ExemplarSegmenter::max_side_px", {.max_side_px = 2});
     error("ExemplarSegmenter::class_colors", {.class_colors = -1});

@@ -263,19 +263,26 @@ TEST_CASE("colours are learnt of classes whose objects have masks, and kept when
                 const ism::Mask box = ism::object_mask({.box = label.box}, view.width, view.height);
                 model.shapes.objects[view.first_object].mask = ism::describe_object(label, box, {}).mask;
             }
-    model = ism::learn_templates(std::move(model), pattern_features(), small, 1);
+    const ism::Model lending = ism::learn_exemplars(model, pattern_features());
+    REQUIRE(lending.figure_colors.size() == 2);
+    model = ism::learn_templates(lending, pattern_features(), small, 1);
     REQUIRE(model.figure_colors.size() == 2);
     CHECK(model.figure_colors_of(0).size() == ism::figure_color_bins);
     CHECK(model.figure_colors_of(1).empty());
     CHECK(model.figure_colors_of(2).empty());
-    const ism::Model lending = ism::learn_exemplars(model, pattern_features());
-    CHECK(lending.figure_colors == model.figure_colors);
-    // What masks are like is known of those that lend theirs.
-    REQUIRE(lending.typical_masks.size() == 2);
-    CHECK(lending.typical_masks[0].known());
-    CHECK_FALSE(lending.typical_masks[1].known());
-    CHECK(ism::learn_exemplars(model, pattern_features(), 300, 2).typical_masks == lending.typical_masks);
-    CHECK(ism::learn_exemplars(model_without_templates(), pattern_features()).typical_masks.empty());
+    CHECK(model.figure_colors == lending.figure_colors);
+    // What masks are like, and where objects lie by them, is known of classes that lend theirs.
+    REQUIRE(model.typical_masks.size() == 2);
+    CHECK(model.typical_masks[0].known());
+    CHECK_FALSE(model.typical_masks[1].known());
+    REQUIRE(model.placings.size() == 2);
+    CHECK(model.placings[0] != ism::Placing{});
+    CHECK(model.placings[1] == ism::Placing{});
+    const ism::Model two = ism::learn_templates(lending, pattern_features(), small, 2);
+    CHECK(two.typical_masks == model.typical_masks);
+    CHECK(two.placings == model.placings);
+    CHECK(model_with_templates().placings.empty());
+    CHECK(model_with_templates().typical_masks.empty());
 }
 
 TEST_CASE("what few masks are like is known less well") {

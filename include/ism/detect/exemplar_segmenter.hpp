@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ism/core/box_region.hpp"
@@ -14,21 +15,32 @@
 #include "ism/core/frame_colors.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/guided_filter.hpp"
+#include "ism/core/mask_pieces.hpp"
 #include "ism/core/resize_area.hpp"
 #include "ism/detect/exemplar_prior.hpp"
-#include "ism/detect/figure_box.hpp"
 #include "ism/detect/mask_evidence.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/detect/segment.hpp"
 #include "ism/model/figure_color_odds.hpp"
+#include "ism/model/placing.hpp"
 
 namespace ism {
+
+/// @brief The box of the mask of a segmentation, pixels of the image; the judged one where they hardly
+/// overlap.
+[[nodiscard]] inline Box cut_out_box(const Segmentation& part, const Box& judged) {
+    constexpr double least_iou = 0.3;  // see most_placing_offset
+    Box box = mask_box(part.mask);
+    box.x += part.x, box.y += part.y;
+    return iou(box, judged) >= least_iou ? box : judged;
+}
 
 /// @brief Cuts an object out by its box: the masks of training objects that look like it part by part give a
 /// prior, to which the colours of the class are added; histograms of figure and ground tell what the colours
 /// of this picture say, and a guided filter brings the result to its edges. What was cut out also says where
-/// the object lies: templates see it in coarse cells, wherever its legs are. Where the model has no exemplar
-/// of the class (its labels have no masks) votes cut it out.
+/// the object lies (Placing): templates see it in coarse cells, wherever its legs are. In the box that it is
+/// placed in exemplars fit better, so that it is cut out there once more. Where the model has no exemplar of
+/// the class (its labels have no masks) votes cut it out.
 struct ExemplarSegmenter {
     ExemplarOptions exemplars = {};
     double margin = 0.25;         ///< how far beyond the box to look, in parts of its sides
@@ -40,16 +52,17 @@ struct ExemplarSegmenter {
     double max_log_ratio = 3;     ///< what a colour can say
     double filter_radius = 0.03;  ///< in parts of the root of the box's area
     double filter_epsilon = 1e-4;  ///< variance of colours (0 … 1) that is no edge
-    double placing = 0.8;          ///< how far the sides of a box go to those of what was cut out
-    double outside = 0.005;        ///< share of p(figure) that may lie beyond each of these, see figure_box()
+    double least_piece = 0.02;     ///< of a mask, in parts of its largest; smaller ones are left out
+    int cuts = 2;                  ///< times it is cut out, each in the box of the one before
     PatchSegmenter votes = {};     ///< for classes without exemplars
 
     [[nodiscard]] Segmentation segment(const Detection& hypothesis, const Scene& scene) const;
-    /// @brief Cuts out what a box shows, by these of the model's exemplars and these colours.
+    /// @brief Cuts out once what a box shows, by these of the model's exemplars and these colours; it is not
+    /// placed.
     /// @param colors  FigureColors; may be empty
-    [[nodiscard]] Segmentation segment_by(std::span<const std::uint32_t> exemplar_indices,
-                                          std::span<const float> colors, const Box& box,
-                                          const Scene& scene) const;
+    [[nodiscard]] Segmentation cut_out(std::span<const std::uint32_t> exemplar_indices,
+                                       std::span<const float> colors, const Box& box,
+                                       const Scene& scene) const;
     /// @brief What was cut out speaks for or against detections, see weigh_masks().
     void judge(std::vector<Detection>& detections, const Scene& scene) const {
         weigh_masks(detections, scene.model, scene.pool);
@@ -74,8 +87,8 @@ inline void check(const ExemplarSegmenter& options) {
     in_range("ExemplarSegmenter::max_log_ratio", options.max_log_ratio, 0, 100, "0 ... 100");
     in_range("ExemplarSegmenter::filter_radius", options.filter_radius, 0, 1, "0 ... 1");
     in_range("ExemplarSegmenter::filter_epsilon", options.filter_epsilon, 1e-9, 1e3, "1e-9 ... 1e3");
-    in_range("ExemplarSegmenter::placing", options.placing, 0, 1, "0 ... 1");
-    in_range("ExemplarSegmenter::outside", options.outside, 0, 0.25, "0 ... 0.25");
+    in_range("ExemplarSegmenter::least_piece", options.least_piece, 0, 1, "0 ... 1");
+    in_range("ExemplarSegmenter::cuts", options.cuts, 1, 10, "1 ... 10");
 }
 
 inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, const Scene& scene) const {
@@ -85,12 +98,21 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
         if (model.shapes.objects[model.exemplars[e].object].class_index == hypothesis.class_index)
             of_class.push_back(e);
     if (of_class.empty() || !(hypothesis.box.area() >= 1)) return votes.segment(hypothesis, scene);
-    return segment_by(of_class, model.figure_colors_of(hypothesis.class_index), hypothesis.box, scene);
+    const auto& colors = model.figure_colors_of(hypothesis.class_index);
+    const Placing placing = model.placing_of(hypothesis.class_index);
+    Segmentation part;
+    Box box = hypothesis.box;
+    for (int cut = 0; cut < cuts; ++cut) {
+        part = cut_out(of_class, colors, box, scene);
+        box = placing.place(hypothesis.box, cut_out_box(part, hypothesis.box));
+    }
+    part.box = box;
+    return part;
 }
 
-inline Segmentation ExemplarSegmenter::segment_by(std::span<const std::uint32_t> exemplar_indices,
-                                                  std::span<const float> colors, const Box& box,
-                                                  const Scene& scene) const {
+inline Segmentation ExemplarSegmenter::cut_out(std::span<const std::uint32_t> exemplar_indices,
+                                               std::span<const float> colors, const Box& box,
+                                               const Scene& scene) const {
     const Model& model = scene.model;
     const FrameColors frame_colors(scene.frame);
     const RgbImage& color = frame_colors.image();
@@ -181,8 +203,7 @@ inline Segmentation ExemplarSegmenter::segment_by(std::span<const std::uint32_t>
             result.figure(x, y) = p, result.ground(x, y) = 1 - p;
             result.mask(x, y) = p > 0.5f;
         }
-    if (const Box cut_out = figure_box(result, outside); cut_out.area() > 0)
-        result.box = box_between(box, cut_out, placing);
+    result.mask = without_specks(std::move(result.mask), least_piece);
     return result;
 }
 

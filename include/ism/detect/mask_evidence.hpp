@@ -19,24 +19,24 @@
 
 namespace ism {
 
-/// @brief Measures what was cut out. A large one is looked at in fewer points, so that it is as ragged as a
-/// small one.
+/// @brief Measures what was cut out, with specks that its mask leaves out. A large one is looked at in fewer
+/// points, so that it is as ragged as a small one.
 /// @param box  of the object, pixels of the image
 [[nodiscard]] inline MaskMeasures measure_mask(const Segmentation& part, const Box& box) {
     constexpr int longest = 320;  // side, points
-    const Mask& mask = part.mask;
-    const double step = std::max(1.0, std::max(mask.width(), mask.height()) / double(longest));
-    const int columns = int(mask.width() / step), rows = int(mask.height() / step);
+    const GrayImage& figure = part.figure;
+    const double step = std::max(1.0, std::max(figure.width(), figure.height()) / double(longest));
+    const int columns = int(figure.width() / step), rows = int(figure.height() / step);
     const auto pixel = [&](int point) { return int((point + 0.5) * step); };
     const auto covers = [&](int column, int row) {
         return column >= 0 && row >= 0 && column < columns && row < rows &&
-               mask(pixel(column), pixel(row)) != 0;
+               figure(pixel(column), pixel(row)) > 0.5f;
     };
-    double area = 0, perimeter = 0, covered = 0, certainty = 0, inside = 0;
+    double area = 0, perimeter = 0, figure_inside = 0, certainty = 0, inside = 0;
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
-            const bool figure = covers(column, row);
-            if (figure) {
+            const bool covered = covers(column, row);
+            if (covered) {
                 area += 1;
                 for (const auto& [right, down] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
                     perimeter += covers(column + right, row + down) ? 0 : 1;
@@ -44,10 +44,10 @@ namespace ism {
             const int x = pixel(column), y = pixel(row);
             const double px = part.x + x + 0.5 - box.x, py = part.y + y + 0.5 - box.y;
             if (!(px >= 0 && py >= 0 && px < box.width && py < box.height)) continue;
-            inside += 1, covered += figure;
-            certainty += std::abs(2 * double(part.figure(x, y)) - 1);
+            inside += 1, figure_inside += covered;
+            certainty += std::abs(2 * double(figure(x, y)) - 1);
         }
-    return {.extent = covered / std::max(1.0, inside),
+    return {.extent = figure_inside / std::max(1.0, inside),
             .certainty = certainty / std::max(1.0, inside),
             .raggedness = std::log(std::max(1.0, perimeter * perimeter) / std::max(1.0, area))};
 }

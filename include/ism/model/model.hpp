@@ -17,6 +17,7 @@
 #include "ism/model/mask_exemplar.hpp"
 #include "ism/model/mask_judge.hpp"
 #include "ism/model/patch_classifier.hpp"
+#include "ism/model/placing.hpp"
 #include "ism/model/shape_model.hpp"
 #include "ism/model/typical_mask.hpp"
 
@@ -55,6 +56,7 @@ struct Model {
     std::vector<MaskExemplar> exemplars = {};      ///< whose masks are lent; may be empty
     std::vector<FigureColors> figure_colors = {};  ///< of each class; may be empty
     std::vector<TypicalMask> typical_masks = {};   ///< of each class; may be empty
+    std::vector<Placing> placings = {};            ///< of each class; may be empty
     MaskJudge mask_judge = {};                     ///< of regions of RGB-D images; may be empty
     TrainingSummary training = {};
     std::vector<Model> rgbd = {};  ///< none or one: the model of learn_metric() for frames with depth
@@ -71,6 +73,10 @@ struct Model {
     [[nodiscard]] std::span<const float> figure_colors_of(std::size_t class_index) const {
         if (class_index >= figure_colors.size()) return {};
         return figure_colors[class_index];
+    }
+    /// @brief How boxes of a class are placed; the usual way where it is not known.
+    [[nodiscard]] Placing placing_of(std::size_t class_index) const {
+        return class_index < placings.size() ? placings[class_index] : Placing{};
     }
 };
 

@@ -17,6 +17,7 @@
 #include "ism/model/calibration.hpp"
 #include "ism/model/figure_colors.hpp"
 #include "ism/model/mask_exemplar.hpp"
+#include "ism/model/placing.hpp"
 #include "ism/model/typical_mask.hpp"
 #include "ism/model_file/shape_tensors.hpp"
 #include "ism/model_file/tensor.hpp"
@@ -226,6 +227,30 @@ inline void typical_masks_to_tensor(std::span<const TypicalMask> masks, TensorFi
         masks.push_back({.mean = {own[0], own[1], own[2]}, .deviation = {own[3], own[4], own[5]}});
     }
     return masks;
+}
+
+/// Of each class and each side, left, top, right, bottom: share and offset.
+inline void placings_to_tensor(std::span<const Placing> placings, TensorFile& file) {
+    std::vector<double> numbers;
+    for (const Placing& placing : placings)
+        for (const auto& [share, offset] : placing.sides) numbers.insert(numbers.end(), {share, offset});
+    file.tensors["placings"] = make_tensor<double>(numbers, {placings.size(), 4, 2});
+}
+
+[[nodiscard]] inline std::vector<Placing> placings_from_tensor(const TensorFile& file, std::size_t classes) {
+    const auto numbers = values<double>(file, "placings", {any_length, 4, 2});
+    const std::size_t count = numbers.size() / 8;
+    expect<FileError>(count == 0 || count == classes, lazy_text(file.source, ": placings"),
+                      lazy_text("0 or ", classes), count);
+    std::vector<Placing> placings(count);
+    for (std::size_t i = 0; i < numbers.size(); i += 2) {
+        const double share = numbers[i], offset = numbers[i + 1];
+        expect<FileError>(share >= 0 && share <= 1 && std::abs(offset) <= most_placing_offset,
+                          lazy_text(file.source, ": placings"),
+                          "shares of 0 ... 1, offsets of -0.14 ... 0.14", lazy_text(share, ", ", offset));
+        placings[i / 8].sides[i / 2 % 4] = {share, offset};
+    }
+    return placings;
 }
 
 /// Those that are known one after another, and of which classes they are.

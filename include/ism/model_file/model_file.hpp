@@ -28,7 +28,7 @@ namespace ism {
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 16;
+inline constexpr std::int64_t model_format_version = 17;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {
@@ -103,8 +103,8 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     TensorFile file{.source = source};
     // A member that is added to Model does not compile here until it is kept too.
     const auto& [channels, shapes, box_classifier, calibration, templates, patch_classifier, cue_weights,
-                 figures, template_calibration, exemplars, figure_colors, typical_masks, mask_judge, training,
-                 rgbd] = model;
+                 figures, template_calibration, exemplars, figure_colors, typical_masks, placings, mask_judge,
+                 training, rgbd] = model;
     expect<FileError>(model.words() > 0 && shapes.occurrences.size() == model.words(),
                       lazy_text(source, ": words with occurrences"), model.words(),
                       shapes.occurrences.size());
@@ -138,6 +138,7 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     exemplars_to_tensors(exemplars, file);
     figure_colors_to_tensors(figure_colors, file);
     typical_masks_to_tensor(typical_masks, file);
+    placings_to_tensor(placings, file);
     points_to_tensors(shapes.objects, file);
     frames_to_tensors(shapes.frames, file);
     mask_judge_to_tensors(mask_judge, file);
@@ -200,6 +201,7 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     model.exemplars = exemplars_from_tensors(file, model.shapes.objects.size());
     model.figure_colors = figure_colors_from_tensors(file, classes);
     model.typical_masks = typical_masks_from_tensor(file, classes);
+    model.placings = placings_from_tensor(file, classes);
     model.shapes.objects = with_points_from_tensors(std::move(model.shapes.objects), file);
     model.shapes.frames = frames_from_tensors(file, model.shapes.occurrences.values());
     model.mask_judge = mask_judge_from_tensors(file, model.shapes.objects);

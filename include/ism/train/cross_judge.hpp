@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ism/core/color_bins.hpp"
+#include "ism/core/geometry.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/box_colors.hpp"
 #include "ism/hog/fisher_vector.hpp"
@@ -35,7 +36,9 @@ namespace ism::detail {
 /// A box that was found on an image that its judges had not seen: what speaks for it, and whether it is
 /// right.
 struct JudgedBox {
+    std::size_t image = 0;
     std::uint32_t class_index = 0;
+    Box box = {};
     BoxCues cues = {};
     bool right = false;
 };
@@ -93,7 +96,7 @@ struct FoldJudges {
 /// What judges say of the boxes of an image that they have not seen, of those that overlap the best alone.
 /// What shows an object of another class is left out: that it is none of this one its rivals tell
 /// (yield_to_rivals()).
-[[nodiscard]] inline std::vector<JudgedBox> judged_boxes(const TemplateImage& image,
+[[nodiscard]] inline std::vector<JudgedBox> judged_boxes(std::size_t image_index, const TemplateImage& image,
                                                          std::span<const TemplateScorer> scorers,
                                                          const FoldJudges& judges,
                                                          std::span<const ClassFigure> figures,
@@ -122,7 +125,7 @@ struct FoldJudges {
                          .log_area = log_area(box.box, image.color.width(), image.color.height())};
             if (!judges.words.empty())
                 cues.word_logit = judges.words.logit(c, image.words.histogram(box.box));
-            judged.push_back({c, cues, right});
+            judged.push_back({image_index, c, box.box, cues, right});
         }
     }
     return judged;

@@ -11,22 +11,23 @@
 #include "ism/model/describe_exemplar.hpp"
 #include "ism/train/describe_object.hpp"
 #include "ism/train/learn_figure_colors.hpp"
-#include "ism/train/learn_typical_masks.hpp"
 #include "ism/train/training_features.hpp"
 
 namespace ism {
 
-/// @brief Adds to a model the training objects that lend their masks (ExemplarSegmenter), the colours of
-/// their classes and, where there are templates, what masks of each class are like (weigh_masks()), from the
-/// same training features, whose pixels were kept (TrainingFeatureOptions::pixels). An object without a mask
-/// of its own, labelled or from masks_from_boxes(), is none.
+/// @brief Adds to a model the training objects that lend their masks (ExemplarSegmenter) and the colours of
+/// their classes, from the same training features, whose pixels were kept (TrainingFeatureOptions::pixels).
+/// An object without a mask of its own, labelled or from masks_from_boxes(), is none.
+/// @param model         without templates: learn_templates() comes after, to learn what exemplars cut out
 /// @param max_of_class  of more objects of a class every second, third … is taken
-/// @throws Error where the model is of other objects, or no image has pixels.
+/// @throws Error where the model has templates or is of other objects, or no image has pixels.
 [[nodiscard]] inline Model learn_exemplars(Model model, const TrainingFeatures& features,
                                            std::size_t max_of_class = 300, unsigned threads = 0) {
     expect(model.shapes.objects.size() == features.objects.size(), "exemplars: objects of the model",
            features.objects.size(), model.shapes.objects.size());
     expect(max_of_class > 0, "exemplars: objects of a class", "1 or more", 0);
+    expect(model.templates.empty(), "exemplars: templates of the model", "none before learn_exemplars()",
+           model.templates.size());
     struct Candidate {
         std::uint32_t object = 0;
         const TrainingView* view = nullptr;
@@ -54,7 +55,8 @@ namespace ism {
         const auto& [object, view, label] = chosen[i];
         model.exemplars[i] = {object, describe_exemplar(view->pixels, label.box)};
     });
-    if (model.figure_colors.empty() && !chosen.empty()) {  // else learn_templates() has learnt them
+    model.figure_colors.clear();
+    if (!chosen.empty()) {
         std::vector<std::vector<ColoredObject>> colored(of_class.size());
         for (const auto& [object, view, label] : chosen)
             colored[label.class_index].push_back(
@@ -63,8 +65,6 @@ namespace ism {
         parallel_for(colored.size(), threads,
                      [&](std::size_t c) { model.figure_colors[c] = learn_figure_colors(colored[c]); });
     }
-    model.typical_masks.clear();
-    if (!model.templates.empty()) model.typical_masks = detail::learn_typical_masks(model, features, threads);
     return model;
 }
 

@@ -23,6 +23,7 @@
 #include "ism/train/fit_calibration.hpp"
 #include "ism/train/fit_patch_classifier.hpp"
 #include "ism/train/fit_patch_mixture.hpp"
+#include "ism/train/learn_cut_outs.hpp"
 #include "ism/train/learn_figure_colors.hpp"
 #include "ism/train/mean_figures.hpp"
 #include "ism/train/pyramid_workers.hpp"
@@ -67,13 +68,19 @@ namespace detail {
     return left_out;
 }
 
+/// The training images whose pixels were kept.
+[[nodiscard]] inline std::vector<const TrainingView*> views_with_pixels(const TrainingFeatures& features) {
+    std::vector<const TrainingView*> views;
+    for (const TrainingView& view : features.views)
+        if (!view.pixels.empty()) views.push_back(&view);
+    return views;
+}
+
 /// The training images with the hypotheses that their objects' own votes had no part in.
 [[nodiscard]] inline std::vector<TemplateImage> template_images(const Model& model,
                                                                 const TrainingFeatures& features,
                                                                 unsigned threads, const Progress& progress) {
-    std::vector<const TrainingView*> views;
-    for (const TrainingView& view : features.views)
-        if (!view.pixels.empty()) views.push_back(&view);
+    const std::vector<const TrainingView*> views = views_with_pixels(features);
     const WordIndices words = word_indices(model);
     const std::size_t classes = model.shapes.class_names.size();
     std::vector<std::vector<bool>> left_out;  // by each class
@@ -110,6 +117,7 @@ struct FittedJudges {
     PatchClassifier patches = {};
     std::vector<FigureColors> colors = {};
     std::vector<JudgedBox> judged = {};  ///< by judges that were fitted without the image's fold
+    ImageFolds folds = {};
 };
 
 /// Fits templates and what judges their boxes to all images, and side by side to all but each fold: in a few
@@ -186,7 +194,7 @@ struct FittedJudges {
             for (std::size_t f = 1; f < fits.size() && round == fold_rounds + 1; ++f)
                 if (!fitter.sees(fits[f], i))
                     judged[i] =
-                        judged_boxes(images[i], fits[f].scorers, judges[f], model.figures, pyramid, pool);
+                        judged_boxes(i, images[i], fits[f].scorers, judges[f], model.figures, pyramid, pool);
             counter.step();
         });
         fitter.fit(going_on, workers.pool());
@@ -198,6 +206,9 @@ struct FittedJudges {
     judges[0].patches = patches_without(0);
     FittedJudges fitted{
         .templates = fitter.mean_templates(), .patches = mean_patches(judges), .colors = judges[0].colors};
+    fitted.folds = {fold_of, std::vector<std::vector<FigureColors>>(folds)};
+    for (std::size_t f = 1; f < fits.size(); ++f)
+        fitted.folds.colors_without[fits[f].fold] = std::move(judges[f].colors);
     for (const std::vector<JudgedBox>& boxes : judged) append(fitted.judged, boxes);
     return fitted;
 }
@@ -205,7 +216,9 @@ struct FittedJudges {
 }  // namespace detail
 
 /// @brief Adds to a model the template of each class and what its scores are worth, learnt from the same
-/// training features, whose pixels were kept (TrainingFeatureOptions::pixels).
+/// training features, whose pixels were kept (TrainingFeatureOptions::pixels). Where the model has exemplars
+/// (learn_exemplars()), also what masks of each class are like (weigh_masks()) and how boxes are placed by
+/// them (Placing).
 /// @throws Error where no pixels were kept, or an option is out of range.
 [[nodiscard]] inline Model learn_templates(Model model, const TrainingFeatures& features,
                                            const TemplateOptions& options = {}, unsigned threads = 0,
@@ -224,6 +237,11 @@ struct FittedJudges {
     if (std::all_of(model.figure_colors.begin(), model.figure_colors.end(),
                     [](auto& c) { return c.empty(); }))
         model.figure_colors.clear();
+    if (!model.exemplars.empty()) {
+        detail::CutOuts learnt = detail::learn_cut_outs(model, detail::views_with_pixels(features),
+                                                        fitted.judged, fitted.folds, threads);
+        model.typical_masks = std::move(learnt.typical_masks), model.placings = std::move(learnt.placings);
+    }
     return model;
 }
 

@@ -96,7 +96,8 @@ inline void expect_ellipse(Mask& mask) {
     ThreadPool pool(1);
     Detection whole;
     whole.class_index = own.class_index, whole.box = own.box;
-    const ExemplarSegmenter segmenter{.exemplars = {.size_step = 0, .place_step = 0}};  // the box is right
+    const ExemplarSegmenter segmenter{.exemplars = {.size_step = 0, .place_step = 0},
+                                      .cuts = 1};  // the box is right
     const Segmentation part = segmenter.segment(whole, Scene{.frame = frame, .model = model, .pool = pool});
     Mask mask(objects[own.object].mask.width(), objects[own.object].mask.height());
     for (int y = 0; y < mask.height(); ++y)
