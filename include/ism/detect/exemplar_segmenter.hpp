@@ -98,7 +98,7 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
         if (model.shapes.objects[model.exemplars[e].object].class_index == hypothesis.class_index)
             of_class.push_back(e);
     if (of_class.empty() || !(hypothesis.box.area() >= 1)) return votes.segment(hypothesis, scene);
-    const auto& colors = model.figure_colors_of(hypothesis.class_index);
+    const std::span<const float> colors = model.figure_colors_of(hypothesis.class_index);
     const Placing placing = model.placing_of(hypothesis.class_index);
     Segmentation part;
     Box box = hypothesis.box;

@@ -25,6 +25,7 @@ struct Placing {
     std::array<Side, 4> sides = {};
     [[nodiscard]] bool operator==(const Placing&) const = default;
 
+    /// @brief The box of the object; without area only where the two hardly overlap.
     [[nodiscard]] Box place(const Box& judged, const Box& mask) const {
         const auto placed = [](const Side& side, double from, double to, double length) {
             return from + side.share * (to - from) + side.offset * length;
