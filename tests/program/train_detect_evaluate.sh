@@ -33,7 +33,7 @@ says "mean " figures.txt
 says '"best_f1"' figures.json
 says "<svg" pr.svg
 "$ism" evaluate --data toys/test.json --detections found-1 --rule uiuc >uiuc.txt
-"$ism" evaluate --data toys/test.json --detections found-1 --iou 0.9 >strict.txt
+"$ism" evaluate --data toys/test.json --detections found-1 --iou 0.99 >strict.txt
 "$ism" evaluate --data toys/test.json --detections found-1 --rule coco --json coco.json >coco.txt
 says "AP50 %" coco.txt
 says '"ap75"' coco.json
