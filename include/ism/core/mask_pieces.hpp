@@ -14,6 +14,7 @@ namespace ism {
 
 /// @brief A mask without its specks: pieces of it, whose pixels are neighbours along rows and columns, that
 /// cover less than this share of the largest piece. Pieces are joined run by run (union-find), row by row.
+/// @param share  0 (all stay) … 1 (the largest alone stays, with others as large)
 [[nodiscard]] inline Mask without_specks(Mask mask, double share) {
     struct Run {  // figure pixels side by side
         int y, begin, end;
