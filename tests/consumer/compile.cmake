@@ -43,7 +43,7 @@ elseif(WAY STREQUAL "single_header")
     endif()
     run()
     file(WRITE "${SCRATCH}/both.cpp" "#include \"ism/version.hpp\"\n#include \"${SCRATCH}/elsewhere/ism_single.hpp\"\n")
-    execute_process(COMMAND "${COMPILER}" -std=c++20 -fsyntax-only "-I${ISM_SOURCE}/include" "${SCRATCH}/both.cpp" RESULT_VARIABLE result
+    execute_process(COMMAND "${COMPILER}" -std=c++20 -fsyntax-only -Wfatal-errors "-I${ISM_SOURCE}/include" "${SCRATCH}/both.cpp" RESULT_VARIABLE result
                     ERROR_VARIABLE output)
     if(result EQUAL 0 OR NOT output MATCHES "not both in one source")
         message(FATAL_ERROR "consumer by ${WAY}: expected both kinds of headers in one source to be refused, got\n${output}")
