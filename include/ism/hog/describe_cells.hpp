@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -21,30 +22,53 @@ namespace detail {
 
 /// The sums above the lower edge of a row of cells less those above its upper, at x.
 inline void sums_between(const HogLevel& level, int x, int top, int bottom, HogSums& sums) {
-    const float *upper = level.at(x, top), *lower = level.at(x, bottom);
+    const std::uint16_t *upper = level.at(x, top), *lower = level.at(x, bottom);
 #pragma GCC unroll 8
     for (std::size_t part = 0; part < sums.size(); ++part) {
-        FourFloats above;
-        std::memcpy(&sums[part], lower + 4 * part, sizeof(above));
-        std::memcpy(&above, upper + 4 * part, sizeof(above));
+        EightShorts above;
+        std::memcpy(&sums[part], lower + 8 * part, sizeof(above));
+        std::memcpy(&above, upper + 8 * part, sizeof(above));
         sums[part] -= above;
     }
 }
 
+/// The same numbers as floats: gradients, which are never below 0, and colours.
+inline void to_floats(const HogSums& sums, HogMeans& floats) {
+#pragma GCC unroll 8
+    for (std::size_t part = 0; part < sums.size(); ++part) {
+        Vector<std::int32_t, 4> pairs;
+        std::memcpy(&pairs, &sums[part], sizeof(pairs));
+        const Vector<std::int32_t, 4> even = pairs & 0xffff, odd = pairs >> 16;
+        floats[2 * part] = __builtin_convertvector(even, FourFloats);
+        floats[2 * part + 1] =
+            __builtin_convertvector(2 * part + 1 == color_part ? odd : odd & 0xffff, FourFloats);
+    }
+}
+
+/// The sums over a rectangle of any size: of parts of most_exact_pixels.
+[[gnu::noinline]] inline void sum_by_parts(const HogLevel& level, int left, int top, int right, int bottom,
+                                           HogMeans& sums) {
+    constexpr int wide = 16, tall = most_exact_pixels / wide;
+    sums = {};
+    for (int y = top; y < bottom; y += tall)
+        for (int x = left; x < right; x += wide) {
+            HogSums before, part;
+            sums_between(level, x, y, std::min(y + tall, bottom), before);
+            sums_between(level, std::min(x + wide, right), y, std::min(y + tall, bottom), part);
+            for (std::size_t k = 0; k < part.size(); ++k) part[k] -= before[k];
+            HogMeans numbers;
+            to_floats(part, numbers);
+            for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += numbers[k];
+        }
+}
+
 /// From the sums over a cell its mean gradients in parts of its whole area, its mean colours in parts of what
 /// lies in the image. Returns the squared length of its unsigned directions.
-[[nodiscard]] inline float take_means(HogSums& cell, float area, float inside) {
-    const float by_area = 1 / area, by_inside = 1 / inside;
+[[nodiscard]] inline float take_means(HogMeans& cell, float area, float inside) {
+    const float by_area = 1 / (area * gradient_unit), by_inside = 1 / (inside * color_unit);
 #pragma GCC unroll 8
-    for (std::size_t part = 0; part < 4; ++part) cell[part] *= by_area;
-    cell[4] *= FourFloats{by_area, by_area, by_inside, by_inside};
-    cell[5] *= by_inside;
-    // rounding of the sums may leave a little less than nothing
-    constexpr float any = -1e9f;
-    const FourFloats least = {0, 0, any, any};
-#pragma GCC unroll 8
-    for (std::size_t part = 0; part < 4; ++part) cell[part] = cell[part] > 0 ? cell[part] : FourFloats{};
-    cell[4] = cell[4] > least ? cell[4] : least;
+    for (std::size_t part = 0; part < color_part; ++part) cell[part] *= by_area;
+    cell[color_part] *= by_inside;
     const FourFloats low = cell[0] + cell[2], high = cell[1] + cell[3], squares = low * low + high * high;
     const float last = cell[4][0] + cell[4][1];
     return sum_of_lanes<float, 4>(squares) + last * last;
@@ -54,7 +78,7 @@ inline void sums_between(const HogLevel& level, int x, int top, int bottom, HogS
 inline void fetch_line(const HogLevel& level, std::span<const int> xs, int y) {
     y = std::clamp(y, 0, level.height);
     for (const int x : xs) {
-        const float* sums = level.at(std::clamp(x, 0, level.width), y);
+        const std::uint16_t* sums = level.at(std::clamp(x, 0, level.width), y);
         __builtin_prefetch(sums), __builtin_prefetch(sums + hog_sums - 1);
     }
 }
@@ -63,27 +87,34 @@ inline void fetch_line(const HogLevel& level, std::span<const int> xs, int y) {
 /// squared lengths of their directions.
 /// @param at_lines  memory for as many as there are lines
 inline void row_of_cells(const HogLevel& level, std::span<const int> xs, int top, int bottom,
-                         HogSums* at_lines, HogSums* cells, float* energy) {
+                         HogSums* at_lines, HogMeans* cells, float* energy) {
     const auto column = [&](int x) { return std::clamp(x, 0, level.width); };
     const float tall = float(std::max(1, bottom - top));
     top = std::clamp(top, 0, level.height), bottom = std::clamp(bottom, 0, level.height);
     // first all that comes from far memory, so that the processor waits for it at once
     for (std::size_t i = 0; i < xs.size(); ++i) sums_between(level, column(xs[i]), top, bottom, at_lines[i]);
     for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
-        const float inside = float(column(xs[i + 1]) - column(xs[i])) * float(bottom - top);
-        if (inside > 0) {
-#pragma GCC unroll 8
-            for (std::size_t part = 0; part < cells[i].size(); ++part)
-                cells[i][part] = at_lines[i + 1][part] - at_lines[i][part];
-            energy[i] = take_means(cells[i], float(std::max(1, xs[i + 1] - xs[i])) * tall, inside);
-        } else {
+        const int left = column(xs[i]), right = column(xs[i + 1]);
+        const float inside = float(right - left) * float(bottom - top);
+        if (!(inside > 0)) {
             cells[i] = {}, energy[i] = 0;
+            continue;
         }
+        if (inside <= float(most_exact_pixels)) {
+            HogSums sums;
+#pragma GCC unroll 8
+            for (std::size_t part = 0; part < sums.size(); ++part)
+                sums[part] = at_lines[i + 1][part] - at_lines[i][part];
+            to_floats(sums, cells[i]);
+        } else {
+            sum_by_parts(level, left, top, right, bottom, cells[i]);
+        }
+        energy[i] = take_means(cells[i], float(std::max(1, xs[i + 1] - xs[i])) * tall, inside);
     }
 }
 
 /// The numbers of a cell, by one over the lengths of the four blocks of 2 × 2 cells that it belongs to.
-ISM_DETAIL_INLINE void normalise_cell(const HogSums& cell, const float (&norms)[4], float* out) {
+ISM_DETAIL_INLINE void normalise_cell(const HogMeans& cell, const float (&norms)[4], float* out) {
     FourFloats limit = FourFloats{} + 0.2f;
     forget<float, 4>(limit);
     const float last = cell[4][0], opposite = cell[4][1];
@@ -112,14 +143,15 @@ ISM_DETAIL_INLINE void normalise_cell(const HogSums& cell, const float (&norms)[
         std::memcpy(out + 9 * row, &sums[2 * row], 2 * sizeof(FourFloats));
         out[9 * row + 8] = sums[6][row];
     }
-    out[31] = cell[4][2] - 0.5f, out[32] = cell[4][3], out[33] = cell[5][0];
+    out[31] = cell[5][0] - 0.5f, out[32] = cell[5][1], out[33] = cell[5][2];
 }
 
 }  // namespace detail
 
 /// @brief Memory for one box after another.
 struct CellScratch {
-    std::vector<detail::HogSums> sums, at_lines;
+    std::vector<detail::HogSums> at_lines;
+    std::vector<detail::HogMeans> means;
     std::vector<float> energy, norms, cells;
     std::vector<int> xs, ys;
 };
@@ -132,7 +164,7 @@ inline void describe_cells(const HogPyramid& pyramid, const Box& box, const BoxG
     const HogLevel& level = pyramid.level_for(std::sqrt(cell_width * cell_height));
     // the ring and one more cell around it, whose norms are needed
     const int margin = 1 + int(grid.ring), columns = grid.columns + 2 * margin, rows = grid.rows + 2 * margin;
-    auto& [sums, at_lines, energy, norms, unused, xs, ys] = scratch;
+    auto& [at_lines, means, energy, norms, unused, xs, ys] = scratch;
     const auto lines = [&](std::vector<int>& at, int count, double first, double cell, double step) {
         at.resize(std::size_t(count + 1));
         for (int i = 0; i <= count; ++i)
@@ -141,12 +173,12 @@ inline void describe_cells(const HogPyramid& pyramid, const Box& box, const BoxG
     };
     lines(xs, columns, box.x, cell_width, double(level.width) / pyramid.width());
     lines(ys, rows, box.y, cell_height, double(level.height) / pyramid.height());
-    sums.resize(std::size_t(columns * rows)), at_lines.resize(xs.size()), energy.resize(sums.size()),
-        norms.resize(sums.size());
+    means.resize(std::size_t(columns * rows)), at_lines.resize(xs.size()), energy.resize(means.size()),
+        norms.resize(means.size());
     for (int j = 0; j < rows; ++j) {
         if (j + 2 <= rows) detail::fetch_line(level, xs, ys[std::size_t(j + 2)]);  // that the next row needs
         detail::row_of_cells(level, xs, ys[std::size_t(j)], ys[std::size_t(j + 1)], at_lines.data(),
-                             sums.data() + j * columns, energy.data() + j * columns);
+                             means.data() + j * columns, energy.data() + j * columns);
     }
     for (int j = 0; j + 1 < rows; ++j)
         for (int i = 0; i + 1 < columns; ++i) {  // of the block that begins at this cell
@@ -158,7 +190,7 @@ inline void describe_cells(const HogPyramid& pyramid, const Box& box, const BoxG
     for (int j = 1; j < rows - 1; ++j)
         for (int i = 1; i < columns - 1; ++i, to += cell_numbers) {
             const float* norm = norms.data() + j * columns + i;
-            detail::normalise_cell(sums[std::size_t(j * columns + i)],
+            detail::normalise_cell(means[std::size_t(j * columns + i)],
                                    {norm[-columns - 1], norm[-columns], norm[-1], norm[0]}, to);
         }
 }

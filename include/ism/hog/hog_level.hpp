@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -17,18 +18,25 @@ namespace ism {
 
 inline constexpr std::size_t hog_directions = 18;  ///< of gradients, over the full circle
 inline constexpr std::size_t hog_sums = 24;        ///< directions, three means of colour, and nothing
+/// @brief What a gradient of 1, from black to white, and a colour of 1 are in the sums.
+inline constexpr int gradient_unit = 360, color_unit = 255;
+/// @brief The sums over so many pixels are exact: below 65536 for gradients of √2, between −32768 and 32767
+/// for colours of −1 to 1.
+inline constexpr int most_exact_pixels = 128;
 
 /// @brief Gradients and colours of an image at one resolution, as sums over all pixels above and to the left:
-/// four of them give the sum over any rectangle (Viola and Jones 2001; for gradients Porikli 2005).
+/// four of them give the sum over any rectangle (Viola and Jones 2001; for gradients Porikli 2005). They
+/// begin again at 0 after 65535, which leaves the sum over most_exact_pixels right and takes half of the
+/// memory.
 struct HogLevel {
-    int width = 0, height = 0;  ///< pixels of the level
-    std::span<float> sums;      ///< count(width, height) numbers: detail::HogSums
+    int width = 0, height = 0;      ///< pixels of the level
+    std::span<std::uint16_t> sums;  ///< count(width, height) numbers: detail::HogSums
 
     /// @brief How many numbers a level has: hog_sums for each corner of a pixel.
     [[nodiscard]] static std::size_t count(int width, int height) {
         return std::size_t(width + 1) * std::size_t(height + 1) * hog_sums;
     }
-    [[nodiscard]] const float* at(int x, int y) const {
+    [[nodiscard]] const std::uint16_t* at(int x, int y) const {
         return sums.data() + (std::size_t(y) * std::size_t(width + 1) + std::size_t(x)) * hog_sums;
     }
 };
@@ -38,8 +46,19 @@ namespace detail {
 /// Four and not eight: GCC compares number after number where a vector has no instruction of its own, and
 /// without flags x86 has none for eight.
 using FourFloats = Vector<float, 4>;
-/// The sums of a place: directions 0 … 7, their opposites 9 … 16, and then 8, 17, three colours and zeros.
-using HogSums = std::array<FourFloats, hog_sums / 4>;
+using EightShorts = Vector<std::uint16_t, 8>;
+/// Of a rectangle: directions 0 … 7, their opposites 9 … 16, 8 and 17 with two zeros, three colours and a
+/// zero.
+using HogMeans = std::array<FourFloats, hog_sums / 4>;
+inline constexpr std::size_t color_part = hog_sums / 4 - 1;  ///< of HogMeans
+/// The sums of a place, in an order in which they become two vectors of HogMeans by a mask and a shift: its
+/// numbers 0 … 3 at even places, 4 … 7 at odd ones, and so on (where low bytes come first).
+using HogSums = std::array<EightShorts, hog_sums / 8>;
+
+/// Where number k of HogMeans lies among the sums of a place.
+[[nodiscard]] constexpr std::size_t place_of_mean(std::size_t k) {
+    return k / 8 * 8 + k % 4 * 2 + k / 4 % 2;
+}
 
 /// Where gradients point, 0 … 18: an odd polynomial of the smaller slope, exact to 0.002 of a direction.
 inline void take_directions(const FourFloats& x, const FourFloats& y, FourFloats& turns) {
@@ -94,59 +113,62 @@ struct HogRow {
 
 /// Where direction d lies among the sums of a place.
 [[nodiscard]] constexpr std::size_t place_of_direction(std::size_t d) {
-    return d == 8 ? 16 : d < 8 || d == 17 ? d : d - 1;
+    return place_of_mean(d == 8 ? 16 : d < 8 || d == 17 ? d : d - 1);
 }
 
-/// A one at the place of each direction, then of the first two again.
-struct DirectionOnes {
-    alignas(16) float of[hog_directions + 2][20] = {};
-    constexpr DirectionOnes() {
+/// All bits at the place of each direction, then of the first again.
+struct DirectionMasks {
+    alignas(16) std::uint16_t of[hog_directions + 2][hog_sums] = {};
+    constexpr DirectionMasks() {
         for (std::size_t d = 0; d < hog_directions + 2; ++d)
-            of[d][place_of_direction(d % hog_directions)] = 1;
+            of[d][place_of_direction(d % hog_directions)] = 0xffff;
     }
 };
 
 /// One level, whose size is set and whose sums are uninitialised, from its colours: red, green, blue and a
 /// number that is not used.
 inline void fill_level(HogLevel& level, ResizedRows<4>& image) {
-    static constexpr DirectionOnes ones;
+    static constexpr DirectionMasks masks;
     const auto width = std::size_t(level.width), height = std::size_t(level.height);
     const std::size_t row_numbers = (width + 1) * hog_sums;
-    std::fill_n(level.sums.begin(), row_numbers, 0.0f);
+    std::fill_n(level.sums.begin(), row_numbers, std::uint16_t(0));
     std::array<std::vector<float>, 3> colors;  // of row y at y % 3
     for (auto& of_row : colors) of_row.resize(4 * width);
     image.write(0, colors[0]);
     HogRow row(level.width);
+    const auto whole = [](float color) {  // rounded, as the colour is −1 … 1
+        return std::uint16_t(int(color * color_unit + (color_unit + 0.5f)) - color_unit);
+    };
     for (std::size_t y = 0; y < height; ++y) {
         if (y + 1 < height) image.write(y + 1, colors[(y + 1) % 3]);
         row.fill(colors[(y > 0 ? y - 1 : y) % 3], colors[y % 3], colors[std::min(y + 1, height - 1) % 3]);
         const float* color = colors[y % 3].data();
-        const float* above = level.sums.data() + y * row_numbers;
-        float* out = level.sums.data() + (y + 1) * row_numbers;
-        std::fill_n(out, hog_sums, 0.0f);
+        const std::uint16_t* above = level.sums.data() + y * row_numbers;
+        std::uint16_t* out = level.sums.data() + (y + 1) * row_numbers;
+        std::fill_n(out, hog_sums, std::uint16_t(0));
         HogSums sum{};
         for (std::size_t x = 0; x < width; ++x, color += 4) {
             above += hog_sums, out += hog_sums;
             // each direction gets as much as a gradient is near it
-            const float strength = std::sqrt(row.sq_strength[x / 4][x % 4]), turn = row.turn[x / 4][x % 4];
-            const int direction = int(turn);
-            const float second = strength * (turn - float(direction)), first = strength - second;
-            const float *to_first = ones.of[direction], *to_second = ones.of[direction + 1];
-#pragma GCC unroll 8
-            for (std::size_t part = 0; part < 5; ++part) {
-                FourFloats one, other;
-                std::memcpy(&one, to_first + 4 * part, sizeof(one));
-                std::memcpy(&other, to_second + 4 * part, sizeof(other));
-                sum[part] += first * one + second * other;
-            }
-            sum[4] += FourFloats{0, 0, (color[0] + color[1] + color[2]) / 3, color[0] - color[1]};
-            sum[5] += FourFloats{(color[0] + color[1]) / 2 - color[2], 0, 0, 0};
+            const float strength = std::sqrt(row.sq_strength[x / 4][x % 4]) * gradient_unit,
+                        turn = row.turn[x / 4][x % 4];
+            const int direction = int(turn), both = int(strength + 0.5f),
+                      second = int(strength * (turn - float(direction)) + 0.5f);
+            const EightShorts first_of = EightShorts{} + std::uint16_t(both - second),
+                              second_of = EightShorts{} + std::uint16_t(second);
+            const std::uint16_t *to_first = masks.of[direction], *to_second = masks.of[direction + 1];
+            sum[2] +=
+                EightShorts{0, whole((color[0] + color[1] + color[2]) / 3), 0, whole(color[0] - color[1]),
+                            0, whole((color[0] + color[1]) / 2 - color[2]), 0, 0};
 #pragma GCC unroll 8
             for (std::size_t part = 0; part < sum.size(); ++part) {
-                FourFloats total;
-                std::memcpy(&total, above + 4 * part, sizeof(total));
+                EightShorts one, other, total;
+                std::memcpy(&one, to_first + 8 * part, sizeof(one));
+                std::memcpy(&other, to_second + 8 * part, sizeof(other));
+                sum[part] += (one & first_of) + (other & second_of);
+                std::memcpy(&total, above + 8 * part, sizeof(total));
                 total += sum[part];
-                std::memcpy(out + 4 * part, &total, sizeof(total));
+                std::memcpy(out + 8 * part, &total, sizeof(total));
             }
         }
     }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,7 +22,7 @@ namespace ism {
 class HogPyramid {
 public:
     static constexpr int finest = -1, coarsest = 11;
-    static constexpr double max_pixels = 2e6;  ///< of a level: 200 MB of sums; larger images begin coarser
+    static constexpr double max_pixels = 2e6;  ///< of a level: 100 MB of sums; larger images begin coarser
 
     HogPyramid() = default;
     /// @param first  the finest level that is needed: 0 is the image's own resolution, −1 half an octave
@@ -64,7 +65,7 @@ public:
             memory_.reset(), memory_size_ = 0;  // given back before there is more
             const std::size_t size =
                 numbers + numbers / 2;  // room for larger images; untouched, it costs nothing
-            memory_ = std::make_unique_for_overwrite<float[]>(size);
+            memory_ = std::make_unique_for_overwrite<std::uint16_t[]>(size);
             memory_size_ = size;
         }
         std::size_t begin = 0;
@@ -100,7 +101,7 @@ private:
     }
 
     int first_ = 0, last_ = 0, width_ = 0, height_ = 0;
-    std::unique_ptr<float[]> memory_;  // the sums of all levels
+    std::unique_ptr<std::uint16_t[]> memory_;  // the sums of all levels
     std::size_t memory_size_ = 0;
     std::array<HogLevel, coarsest - finest + 1> levels_;  // those from first_ to last_
 };
