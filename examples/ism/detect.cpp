@@ -120,10 +120,11 @@ private:
 };
 
 /// The most probable of what was left out, as a result without a mask.
-std::optional<ism::Result> next_best(const ism::Detections& found, const ism::DatasetImage& image,
+std::optional<ism::Result> next_best(std::optional<ism::Detection> best, const ism::DatasetImage& image,
                                      const ism::ShapeModel& shapes) {
-    if (!found.next_best) return {};
-    std::vector<ism::Result> results = ism::to_results({.objects = {*found.next_best}}, image, shapes);
+    if (!best) return {};
+    best->segmentation = {};
+    std::vector<ism::Result> results = ism::to_results({.objects = {*best}}, image, shapes);
     if (results.empty()) return {};
     results[0].segmentation.reset();
     return std::move(results[0]);
@@ -215,14 +216,14 @@ Outcome search_images(Searcher& searcher, const DetectCommand& command, const De
         const ism::DatasetImage& image = input.dataset.images[i];
         const auto frame = frame_of(input, i);
         if (searcher.searches_in_metres(*frame)) ++in_metres;
-        const ism::Detections found = searcher.find(*frame, worker, overlays.folder.has_value());
+        ism::Detections found = searcher.find(*frame, worker, overlays.folder.has_value());
         FoundInImage& here = outcome.found[i];
         here = {.name = input.names[i],
                 .width = image.width,
                 .height = image.height,
                 .results = ism::to_results(found, image, shapes)};
         if (command.images.empty()) here.image_id = image.id;
-        if (here.results.empty()) here.next_best = next_best(found, image, shapes);
+        if (here.results.empty()) here.next_best = next_best(std::move(found.next_best), image, shapes);
         write_overlays(overlays, input, i, frame->color, found);
         if (line != nullptr) told.add(i, line(here));
         if (!lines_shown) progress.step("detecting", count);

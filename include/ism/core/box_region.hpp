@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
+#include "ism/core/resize_area.hpp"
 
 namespace ism {
 
@@ -27,14 +29,18 @@ struct BoxRegion {
     }
 };
 
-/// @brief The pixels of a region, three numbers each, 0 … 255.
-[[nodiscard]] inline std::vector<float> region_colors(ImageView<const Rgb> color, const BoxRegion& region) {
-    std::vector<float> numbers(3 * std::size_t(region.width) * std::size_t(region.height));
-    float* to = numbers.data();
-    for (int y = region.y; y < region.y + region.height; ++y)
-        for (const Rgb c : color.row(y).subspan(std::size_t(region.x), std::size_t(region.width)))
+/// @brief The pixels of a region in another size, three numbers each, 0 … 255 (ResizedRows).
+[[nodiscard]] inline std::vector<float> region_colors(ImageView<const Rgb> color, const BoxRegion& region,
+                                                      int width, int height) {
+    std::vector<float> numbers(3 * std::size_t(region.width));
+    const auto row_of_region = [&](std::size_t y) -> std::span<const float> {
+        float* to = numbers.data();
+        for (const Rgb c :
+             color.row(region.y + int(y)).subspan(std::size_t(region.x), std::size_t(region.width)))
             *to++ = c.r, *to++ = c.g, *to++ = c.b;
-    return numbers;
+        return numbers;
+    };
+    return resize_area<3>(row_of_region, region.width, region.height, width, height);
 }
 
 }  // namespace ism

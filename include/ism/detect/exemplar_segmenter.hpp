@@ -103,6 +103,7 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     Segmentation part;
     Box box = hypothesis.box;
     for (int cut = 0; cut < cuts; ++cut) {
+        part = {};  // given back before there is another
         part = cut_out(of_class, colors, box, scene);
         box = placing.place(hypothesis.box, cut_out_box(part, hypothesis.box));
     }
@@ -124,8 +125,7 @@ inline Segmentation ExemplarSegmenter::cut_out(std::span<const std::uint32_t> ex
     const double zoom = std::min(1.0, double(max_side_px) / std::max(region.width, region.height));
     const int width = std::max(2, int(std::lround(region.width * zoom))),
               height = std::max(2, int(std::lround(region.height * zoom)));
-    const std::vector<float> rgb =
-        resize_area<3>(region_colors(color, region), region.width, region.height, width, height);
+    const std::vector<float> rgb = region_colors(color, region, width, height);
     const ColorBins bins(rgb);
     const std::vector<float> class_odds = figure_color_odds(colors, rgb);
 
@@ -183,26 +183,30 @@ inline Segmentation ExemplarSegmenter::cut_out(std::span<const std::uint32_t> ex
     }
     const int radius = std::max(1, int(std::lround(filter_radius * std::sqrt(box.area()) * zoom)));
     const GuidedFit fit = guided_fit(guide, figure, radius, filter_epsilon);
-    const auto enlarged = [&](const GrayImage& image) {
-        return resize_area<1>(image.pixels(), width, height, region.width, region.height);
-    };
-    const std::vector<float> red = enlarged(fit.slope[0]), green = enlarged(fit.slope[1]),
-                             blue = enlarged(fit.slope[2]), offset = enlarged(fit.offset);
+    std::vector<float> planes;  // of each pixel: what a red, a green and a blue of 1 add, and the rest
+    for (std::size_t i = 0; i < figure.pixels().size(); ++i) {
+        for (const GrayImage& slope : fit.slope) planes.push_back(slope.pixels()[i]);
+        planes.push_back(fit.offset.pixels()[i]);
+    }
+    ResizedRows<4> rows({planes, 4 * std::size_t(width)}, width, height, region.width, region.height);
+    std::vector<float> row(4 * std::size_t(region.width));
 
     Segmentation result{.x = region.x,
                         .y = region.y,
                         .figure = GrayImage(region.width, region.height),
                         .ground = GrayImage(region.width, region.height),
                         .mask = Mask(region.width, region.height)};
-    std::size_t i = 0;
-    for (int y = 0; y < region.height; ++y)
-        for (int x = 0; x < region.width; ++x, ++i) {
+    for (int y = 0; y < region.height; ++y) {
+        rows.write(std::size_t(y), row);
+        const float* plane = row.data();
+        for (int x = 0; x < region.width; ++x, plane += 4) {
             const Rgb c = color(region.x + x, region.y + y);
             const float p =
-                std::clamp((red[i] * c.r + green[i] * c.g + blue[i] * c.b) / 255 + offset[i], 0.0f, 1.0f);
+                std::clamp((plane[0] * c.r + plane[1] * c.g + plane[2] * c.b) / 255 + plane[3], 0.0f, 1.0f);
             result.figure(x, y) = p, result.ground(x, y) = 1 - p;
             result.mask(x, y) = p > 0.5f;
         }
+    }
     result.mask = without_specks(std::move(result.mask), least_piece);
     return result;
 }

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "ism/core/box_region.hpp"
-#include "ism/core/resize_area.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/hog/describe_cells.hpp"
 #include "ism/model/mask_exemplar.hpp"
@@ -34,8 +33,7 @@ struct ExemplarView {
     const double zoom = 8 * exemplar_cells / std::sqrt(box.area());
     const auto side = [&](int px) { return int(std::clamp(std::lround(px * zoom), 16L, 2000L)); };
     const int width = side(region.width), height = side(region.height);
-    const std::vector<float> numbers =
-        resize_area<3>(region_colors(color, region), region.width, region.height, width, height);
+    const std::vector<float> numbers = region_colors(color, region, width, height);
     RgbImage patch(width, height);
     for (std::size_t i = 0; i < patch.pixels().size(); ++i)
         patch.pixels()[i] = {std::uint8_t(numbers[3 * i] + 0.5f), std::uint8_t(numbers[3 * i + 1] + 0.5f),

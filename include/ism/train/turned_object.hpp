@@ -12,7 +12,6 @@
 #include "ism/core/box_region.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
-#include "ism/core/resize_area.hpp"
 
 namespace ism::detail {
 
@@ -31,8 +30,7 @@ public:
         const int columns = std::max(1, int(std::lround(region.width * factor))),
                   rows = std::max(1, int(std::lround(region.height * factor)));
         across_ = double(columns) / region.width, down_ = double(rows) / region.height;
-        const std::vector<float> numbers =
-            resize_area<3>(region_colors(image, region), region.width, region.height, columns, rows);
+        const std::vector<float> numbers = region_colors(image, region, columns, rows);
         for (std::size_t k = 0; k < 3; ++k) {
             planes_[k] = GrayImage(columns, rows);
             const auto pixels = planes_[k].pixels();
