@@ -184,6 +184,7 @@ inline Segmentation ExemplarSegmenter::cut_out(std::span<const std::uint32_t> ex
     const int radius = std::max(1, int(std::lround(filter_radius * std::sqrt(box.area()) * zoom)));
     const GuidedFit fit = guided_fit(guide, figure, radius, filter_epsilon);
     std::vector<float> planes;  // of each pixel: what a red, a green and a blue of 1 add, and the rest
+    planes.reserve(4 * figure.pixels().size());
     for (std::size_t i = 0; i < figure.pixels().size(); ++i) {
         for (const GrayImage& slope : fit.slope) planes.push_back(slope.pixels()[i]);
         planes.push_back(fit.offset.pixels()[i]);

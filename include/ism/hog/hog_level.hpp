@@ -157,6 +157,7 @@ inline void fill_level(HogLevel& level, ResizedRows<4>& image) {
             const EightShorts first_of = EightShorts{} + std::uint16_t(both - second),
                               second_of = EightShorts{} + std::uint16_t(second);
             const std::uint16_t *to_first = masks.of[direction], *to_second = masks.of[direction + 1];
+            // colours are at the odd places of the last part
             sum[2] +=
                 EightShorts{0, whole((color[0] + color[1] + color[2]) / 3), 0, whole(color[0] - color[1]),
                             0, whole((color[0] + color[1]) / 2 - color[2]), 0, 0};
