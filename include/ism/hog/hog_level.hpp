@@ -116,7 +116,7 @@ struct HogRow {
     return place_of_mean(d == 8 ? 16 : d < 8 || d == 17 ? d : d - 1);
 }
 
-/// All bits at the place of each direction, then of the first again.
+/// All bits at the place of each direction, then of the first two again.
 struct DirectionMasks {
     alignas(16) std::uint16_t of[hog_directions + 2][hog_sums] = {};
     constexpr DirectionMasks() {
