@@ -92,14 +92,14 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
     other.rescorer.max_classes = 1;
     add("asked about their own class alone", finder(model, other));
     other = recognition;
-    other.rescorer.rival_share = 0;
+    other.rescorer.rivals.other_classes = 0;
     add("classes at one place do not yield", finder(model, other));
     other = recognition;
     other.options = {}, other.bandwidth = ism::default_bandwidth<ism::Jism>();
     add("hypotheses as votes alone find them", finder(model, other));
     other = recognition;
-    other.verifier.max_inside = 1;
-    add("parts of objects not suppressed", finder(model, other));
+    other.rescorer.rivals.wholes_and_parts = false;
+    add("wholes and parts do not exclude each other", finder(model, other));
     program::SearchOptions of_patches = search;
     of_patches.segmenter = "patches";
     add("masks of patches", finder(model, of_patches));

@@ -51,8 +51,7 @@ struct ChosenVerifier {
     [[nodiscard]] bool needs_masks() const { return !suppression; }
     [[nodiscard]] std::vector<ism::Verified> verify(const std::vector<ism::Detection>& hypotheses,
                                                     const ism::Scene& scene) const {
-        return suppression ? ism::NonMaximumSuppression{.max_inside = 0.5, .across_classes = false}.verify(
-                                 hypotheses, scene)
+        return suppression ? ism::NonMaximumSuppression{.across_classes = false}.verify(hypotheses, scene)
                            : ism::Mdl{}.verify(hypotheses, scene);
     }
 };

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -23,6 +25,12 @@ ism::Detection judged(std::uint32_t class_index, const ism::Box& box, double mar
     return detection;
 }
 
+/// The same by its probability.
+ism::Detection probable(std::uint32_t class_index, const ism::Box& box, double probability) {
+    const ism::Calibration::Curve& curve = calibration.curves[class_index];
+    return judged(class_index, box, (std::log(probability / (1 - probability)) - curve.offset) / curve.slope);
+}
+
 double log_odds(const ism::Detection& detection) {
     return std::log(detection.probability / (1 - detection.probability));
 }
@@ -38,7 +46,7 @@ TEST_CASE("of two classes at one place the less probable yields") {
         judged(0, beside, -0.5),     // of the class of the first; the second is more probable
     };
     auto found = all;
-    ism::yield_to_rivals(found, calibration, 0.5);
+    ism::yield_to_rivals(found, calibration);
     CHECK(found[0].probability == all[0].probability);
     CHECK(found[0].score == all[0].score);
     CHECK(found[0].box_reasons.rivals == 0);
@@ -50,11 +58,66 @@ TEST_CASE("of two classes at one place the less probable yields") {
     CHECK(log_odds(found[3]) == Approx(-2 - 0.5 * 1));
 
     found = all;
-    ism::yield_to_rivals(found, calibration, 0);
+    ism::yield_to_rivals(found, calibration, {.other_classes = 0});
     for (std::size_t i = 0; i < all.size(); ++i) CHECK(found[i].probability == Approx(all[i].probability));
-    ism::yield_to_rivals(found, calibration, 1);
+    ism::yield_to_rivals(found, calibration, {.other_classes = 1});
     CHECK(log_odds(found[1]) == Approx(-1 - 2));
     found.clear();
-    ism::yield_to_rivals(found, calibration, 0.5);
+    ism::yield_to_rivals(found, calibration);
     CHECK(found.empty());
+}
+
+TEST_CASE("a whole and what lies in it exclude each other") {
+    const ism::Box whole{0, 0, 120, 80}, left{10, 40, 30, 30}, right{70, 40, 30, 30};
+    const auto told = [](const std::vector<ism::Detection>& all) {
+        auto found = all;
+        ism::yield_to_rivals(found, calibration);
+        ism::yield_to_rivals(found, calibration);  // from the start again
+        std::vector<double> probabilities;
+        for (const ism::Detection& detection : found) {
+            probabilities.push_back(detection.probability);
+            CHECK(detection.box_reasons.sum() == Approx(log_odds(detection)).margin(1e-9));
+        }
+        return probabilities;
+    };
+
+    // One of four things is there: nothing, the whole (4), one of the parts (1, 0.25) or both (0.25).
+    const double all_odds = (1 + 1) * (1 + 0.25) + 4;
+    auto found = told({probable(0, left, 0.5), probable(0, whole, 0.8), probable(0, right, 0.2)});
+    CHECK(found[0] == Approx((1 + 0.25) / all_odds));
+    CHECK(found[1] == Approx(4 / all_odds));
+    CHECK(found[2] == Approx((0.25 + 0.25) / all_odds));
+
+    // Another box of a part is no part more, yet excluded too.
+    found = told({probable(0, whole, 0.8), probable(0, left, 0.5), probable(0, {12, 38, 30, 30}, 0.2)});
+    CHECK(found[0] == Approx(4 / (1 + 1 + 4.0)));
+    CHECK(found[2] == Approx(0.2 * (1 - found[0])));
+
+    // What lies in a part is no part more of the whole either.
+    found = told({probable(0, whole, 0.8), probable(0, left, 0.5), probable(0, {14, 42, 12, 12}, 0.2)});
+    CHECK(found[0] == Approx(4 / (1 + 1 + 4.0)));
+    CHECK(found[1] == Approx(1 / (1 + 0.25 + 1) * (1 - found[0])));
+    CHECK(found[2] == Approx(0.2 * (1 - found[0])));
+
+    // Neither what is of another class, nor what lies beside, nor what is of the same object.
+    const std::vector<ism::Detection> apart = {probable(0, whole, 0.8), probable(1, left, 0.5),
+                                               probable(0, {100, 10, 60, 60}, 0.3),
+                                               probable(0, {10, 5, 110, 75}, 0.7)};
+    found = told(apart);
+    for (std::size_t i = 0; i < apart.size(); ++i) {
+        INFO("detection " << i);
+        CHECK(found[i] == apart[i].probability);
+    }
+    auto kept = std::vector{probable(0, whole, 0.8), probable(0, left, 0.5)};
+    ism::yield_to_rivals(kept, calibration, {.wholes_and_parts = false});
+    CHECK(kept[1].probability == Approx(0.5));
+}
+
+TEST_CASE("softplus takes any number") {
+    CHECK(ism::softplus(0) == Approx(std::log(2)));
+    CHECK(ism::softplus(1) == Approx(std::log1p(std::exp(1))));
+    CHECK(ism::softplus(-1) == Approx(std::log1p(std::exp(-1))));
+    CHECK(ism::softplus(1000) == 1000);
+    CHECK(ism::softplus(-1000) == 0);
+    CHECK(ism::softplus(-std::numeric_limits<double>::infinity()) == 0);
 }

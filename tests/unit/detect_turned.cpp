@@ -205,7 +205,7 @@ TEST_CASE("turns that are none are refused") {
     const ism::Frame frame{.gray = ism::GrayImage(64, 48)};
     CHECK_THROWS_AS(ism::detect_turned(frame, {.turns = 0}, find_bar), ism::Error);
     CHECK_THROWS_AS(ism::detect_turned(frame, {.turns = 361}, find_bar), ism::Error);
-    CHECK_THROWS_AS(ism::detect_turned(frame, {.rival_share = 1.5}, find_bar), ism::Error);
+    CHECK_THROWS_AS(ism::detect_turned(frame, {.rivals = {.other_classes = 1.5}}, find_bar), ism::Error);
     CHECK_THROWS_AS(ism::detect_turned(frame, {.min_probability = -0.1}, find_bar), ism::Error);
     CHECK_THROWS_AS(ism::detect_turned(ism::Frame{}, {.turns = 4}, find_bar), ism::Error);
 }

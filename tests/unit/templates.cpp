@@ -357,7 +357,7 @@ TEST_CASE("what templates cannot be learnt from is refused by name") {
     CHECK_THROWS_WITH(
         ism::detect(model_with_templates(), test.frame, Recognition{.rescorer = {.min_agreement = 2}}, 1),
         Catch::Contains("TemplateScore::min_agreement"));
-    CHECK_THROWS_WITH(
-        ism::detect(model_with_templates(), test.frame, Recognition{.rescorer = {.rival_share = -1}}, 1),
-        Catch::Contains("TemplateScore::rival_share: expected 0 ... 1, got -1"));
+    CHECK_THROWS_WITH(ism::detect(model_with_templates(), test.frame,
+                                  Recognition{.rescorer = {.rivals = {.other_classes = -1}}}, 1),
+                      Catch::Contains("RivalOptions::other_classes: expected 0 ... 1, got -1"));
 }

@@ -105,16 +105,15 @@ inline void add_stats(DetectionStats& sum, const DetectionStats& more) {
 /// @brief At how many angles detect_turned() looks, and which of what it finds it tells.
 struct TurnOptions {
     int turns = 24;  ///< 1 … 360, evenly over the circle; templates find what is turned by about 7 degrees
-    double rival_share = default_rival_share;  ///< as TemplateScore's, of objects seen at any angle
-    double min_probability = 0;                ///< as DetectOptions::min_probability
+    RivalOptions rivals = {};    ///< of objects seen at any angle
+    double min_probability = 0;  ///< as DetectOptions::min_probability
 };
 
 /// @brief Validates options.
 /// @throws Error for one out of range.
 inline void check(const TurnOptions& options) {
     expect(options.turns >= 1 && options.turns <= 360, "turns", "1 ... 360", options.turns);
-    expect(options.rival_share >= 0 && options.rival_share <= 1, "TurnOptions::rival_share", "0 ... 1",
-           options.rival_share);
+    check(options.rivals);
     expect(options.min_probability >= 0 && options.min_probability <= 1, "TurnOptions::min_probability",
            "0 ... 1", options.min_probability);
 }
@@ -157,8 +156,8 @@ template <Callable<const Frame&> Find>
                 detail::keep_more_probable(all.next_best, std::move(*here));
         detail::add_stats(all.stats, found.stats);
     }
-    if (!calibration.empty()) yield_to_rivals(all.objects, calibration, options.rival_share);
-    const NonMaximumSuppression suppression{.max_inside = 0.5, .across_classes = calibration.empty()};
+    if (!calibration.empty()) yield_to_rivals(all.objects, calibration, options.rivals);
+    const NonMaximumSuppression suppression{.across_classes = calibration.empty()};
     std::vector<Detection> strongest;
     for (const Verified& verified : suppression.verify(all.objects)) {
         Detection& object = all.objects[verified.index];

@@ -2,22 +2,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "ism/core/error.hpp"
 #include "ism/core/geometry.hpp"
+#include "ism/core/lists.hpp"
+#include "ism/core/order.hpp"
 #include "ism/detect/detection.hpp"
+#include "ism/hog/propose_boxes.hpp"
 #include "ism/model/calibration.hpp"
 
 namespace ism {
 
 /// @brief What shares this much of its place with a box (IoU) is a rival of it, if of another class.
 inline constexpr double rival_iou = 0.25;
-
-/// @brief Share of its lead that a rival takes.
-inline constexpr double default_rival_share = 0.5;
 
 /// @brief Makes a detection more or less probable by a change of the logarithm of its odds, and its score
 /// with it.
@@ -48,21 +51,96 @@ inline void change_log_odds(Detection& detection, double change, const Calibrati
     return leads;
 }
 
-/// @brief One place shows one object: where a box of another class at about the same place is more probable,
-/// a detection loses a share of its lead, instead of what it lost before. The most probable stay as they are.
+/// @brief log(1 + eˣ), for any x.
+[[nodiscard]] inline double softplus(double x) {
+    return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x)));
+}
+
+/// @brief Whether a box may show a part of what another shows.
+[[nodiscard]] inline bool is_part(const Box& part, const Box& whole) {
+    return part.area() < whole.area() && lies_within(part, whole) && !is_one_object(part, whole);
+}
+
+/// @brief A place shows a whole or what lies in it, parts of it or objects of their own, but not both: of a
+/// box of odds O and those of its class within it, which are apart and of odds oᵢ, the whole is there with
+/// odds O / Π (1 + oᵢ), that is with a probability P, and each of the others with pᵢ · (1 − P).
+/// @param odds  logarithms of each detection's
+/// @return logarithms of these
+[[nodiscard]] inline std::vector<double> odds_of_wholes_and_parts(const std::vector<Detection>& detections,
+                                                                  const std::vector<double>& odds) {
+    const auto same_class = [&](std::size_t i, std::size_t j) {
+        return detections[i].class_index == detections[j].class_index;
+    };
+    const auto is_part_of = [&](std::size_t part, std::size_t whole) {
+        return same_class(part, whole) && is_part(detections[part].box, detections[whole].box);
+    };
+    std::vector<detail::Ranked> order;
+    for (const double o : odds) order.push_back({detail::falling(o), std::uint32_t(order.size())});
+    detail::sort_ranked(order.data(), order.size());
+    std::vector<std::size_t> objects;  // the most probable box of each, the most probable first
+    for (const detail::Ranked& ranked : order) {
+        const std::size_t i = ranked.index;
+        if (!detail::any_of(objects, [&](std::size_t object) {
+                return same_class(i, object) && is_one_object(detections[i].box, detections[object].box);
+            }))
+            objects.push_back(i);
+    }
+
+    std::vector<double> as_whole = odds;
+    for (std::size_t i = 0; i < odds.size(); ++i) {
+        std::vector<std::size_t> parts;
+        for (const std::size_t object : objects) {
+            const auto is_nested = [&](std::size_t part) {
+                return is_part_of(object, part) || is_part_of(part, object);
+            };
+            if (!is_part_of(object, i) || detail::any_of(parts, is_nested)) continue;
+            parts.push_back(object);
+            as_whole[i] -= softplus(odds[object]);
+        }
+    }
+    std::vector<double> result = as_whole;
+    for (std::size_t i = 0; i < odds.size(); ++i) {
+        double whole = -std::numeric_limits<double>::infinity();
+        for (const std::size_t object : objects)
+            if (is_part_of(i, object)) whole = std::max(whole, as_whole[object]);
+        result[i] -= softplus(whole + softplus(result[i]));
+    }
+    return result;
+}
+
+/// @brief How much detections lose to rivals.
+struct RivalOptions {
+    double other_classes = 0.5;    ///< of the lead of a more probable class at the same place; 0 = nothing
+    bool wholes_and_parts = true;  ///< of a class exclude each other, see odds_of_wholes_and_parts()
+};
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const RivalOptions& options) {
+    expect(options.other_classes >= 0 && options.other_classes <= 1, "RivalOptions::other_classes", "0 ... 1",
+           options.other_classes);
+}
+
+/// @brief One place shows one object: a detection loses a share of the lead of the most probable box of
+/// another class at about the same place, and wholes and parts of one class exclude each other. What was lost
+/// before does not count.
 /// @param detections   with reasons of their boxes
 /// @param calibration  that gave them their probabilities
-/// @param share        0 = none ... 1 = all
 inline void yield_to_rivals(std::vector<Detection>& detections, const Calibration& calibration,
-                            double share) {
-    const std::vector<double> leads = rival_leads(detections);
-    for (std::size_t i = 0; i < detections.size(); ++i) {
+                            const RivalOptions& options = {}) {
+    std::vector<double> alone, odds;
+    for (const double lead : rival_leads(detections)) {
+        const BoxReasons& reasons = detections[odds.size()].box_reasons;
+        alone.push_back(reasons.sum() - reasons.rivals);
+        odds.push_back(alone.back() - options.other_classes * lead);
+    }
+    if (options.wholes_and_parts) odds = odds_of_wholes_and_parts(detections, odds);
+    for (std::size_t i = 0; i < odds.size(); ++i) {
         Detection& detection = detections[i];
-        const double slope = calibration.curves[detection.class_index].slope;
-        const double lost = leads[i] > 0 ? -share * leads[i] : 0, before = detection.box_reasons.rivals;
-        if (lost == before || !(slope > 0)) continue;
-        detection.box_reasons.rivals = lost;
-        change_log_odds(detection, lost - before, calibration);
+        const double before = detection.box_reasons.rivals, now = odds[i] - alone[i];
+        if (now == before || !(calibration.curves[detection.class_index].slope > 0)) continue;
+        detection.box_reasons.rivals = now;
+        change_log_odds(detection, now - before, calibration);
     }
 }
 

@@ -20,7 +20,7 @@ template_recognition(S segmenter = {}) {
     return {.options = proposal_options<Space>(),
             .bandwidth = proposal_bandwidth<Space>(),
             .segmenter = segmenter,
-            .verifier = {.max_inside = 0.5, .across_classes = false}};
+            .verifier = {.across_classes = false}};
 }
 
 }  // namespace ism

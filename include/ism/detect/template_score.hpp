@@ -42,9 +42,8 @@ struct TemplateScore {
         asked_classes;  ///< that are asked about a hypothesis, those of most vote weight there
     double min_agreement =
         VotedBoxes::default_agreement;  ///< IoU of the box that a vote stands for with that of the detection
-    double rival_share = default_rival_share;  ///< of the lead of a more probable class at the same place,
-                                               ///< that a detection loses, see yield_to_rivals()
-    bool explain = false;                      ///< also tell which cells of a template speak for and against
+    RivalOptions rivals = {};           ///< see yield_to_rivals()
+    bool explain = false;               ///< also tell which cells of a template speak for and against
 
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene& scene) const;
 };
@@ -57,8 +56,7 @@ inline void check(const TemplateScore& options) {
     expect(options.max_classes > 0, "TemplateScore::max_classes", "1 or more", 0);
     expect(options.min_agreement >= 0 && options.min_agreement <= 1, "TemplateScore::min_agreement",
            "0 ... 1", options.min_agreement);
-    expect(options.rival_share >= 0 && options.rival_share <= 1, "TemplateScore::rival_share", "0 ... 1",
-           options.rival_share);
+    check(options.rivals);
 }
 
 inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypotheses,
@@ -139,7 +137,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
         }
         move_to(detection, detection.box, scene.frame.camera);
     });
-    if (!model.template_calibration.empty()) yield_to_rivals(found, model.template_calibration, rival_share);
+    if (!model.template_calibration.empty()) yield_to_rivals(found, model.template_calibration, rivals);
     return found;
 }
 

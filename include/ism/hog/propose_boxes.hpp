@@ -18,10 +18,14 @@
 
 namespace ism {
 
-/// @brief Whether of two boxes one has to go: they overlap by an IoU above 0.4, or more than half of the
-/// weaker lies within the stronger.
-[[nodiscard]] inline bool overlaps(const Box& stronger, const Box& weaker) {
-    return iou(stronger, weaker) > 0.4 || intersection(stronger, weaker).area() > 0.5 * weaker.area();
+/// @brief Whether two boxes of a class are of one object.
+[[nodiscard]] inline bool is_one_object(const Box& a, const Box& b) {
+    return iou(a, b) > 0.4;
+}
+
+/// @brief Whether more than half of a box lies in another, of which it may show a part.
+[[nodiscard]] inline bool lies_within(const Box& part, const Box& whole) {
+    return intersection(whole, part).area() > 0.5 * part.area();
 }
 
 /// @brief A box that may show an object, of the class that its votes speak for.

@@ -46,7 +46,7 @@ struct BoxReasons {
     double colors = 0;    ///< those of the class
     double size = 0;
     double any = 0;
-    double rivals = 0;  ///< more probable objects of other classes at the same place
+    double rivals = 0;  ///< what else may be at the same place, see yield_to_rivals()
     double mask = 0;    ///< what was cut out, see weigh_masks(); only in logarithms of odds
 
     [[nodiscard]] bool empty() const { return look == 0 && any == 0; }

@@ -95,7 +95,7 @@ namespace detail {
     add("colours of the class", reasons.colors);
     add("size: false boxes are mostly small", reasons.size);
     add("any box of the class", reasons.any);
-    add("other classes at the same place", reasons.rivals);
+    add("rivals: other classes here, wholes or parts", reasons.rivals);
     add("what was cut out", reasons.mask);
     add("together", reasons.sum());
     return table;

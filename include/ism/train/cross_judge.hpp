@@ -109,8 +109,9 @@ struct FoldJudges {
         std::vector<SearchedBox> kept;
         for (const SearchedBox& box :
              propose_boxes(scorers[c], c, pyramid, image.asked[c], searched_boxes, pool)) {
-            if (std::any_of(kept.begin(), kept.end(),
-                            [&](const SearchedBox& k) { return overlaps(k.box, box.box); }))
+            if (std::any_of(kept.begin(), kept.end(), [&](const SearchedBox& k) {
+                    return is_one_object(k.box, box.box) || lies_within(box.box, k.box);
+                }))
                 continue;
             kept.push_back(box);
             const bool right = best_iou(box.box, image.labels, c) >= 0.5;
