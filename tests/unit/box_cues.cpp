@@ -10,6 +10,7 @@
 
 #include "ism/detect/box_colors.hpp"
 #include "ism/detect/voted_boxes.hpp"
+#include "ism/model/model.hpp"
 #include "ism/train/mean_figures.hpp"
 
 namespace {
@@ -128,6 +129,22 @@ TEST_CASE("votes weigh for the boxes that they stand for") {
     CHECK(many.weight(0, box) == Approx(2 * 640));
 }
 
+TEST_CASE("a box is small where it is so in pixels and beside its picture") {
+    const ism::TypicalSize typical{.log_px = std::log(600), .log_part = std::log(0.25)};
+    const ism::Box box{7, 9, 30, 20};
+    CHECK(ism::log_size(box, 60, 40, typical) == Approx(0).margin(1e-9));
+    CHECK(ism::log_size(box, 600, 400, typical) == Approx(0).margin(1e-9));           // all of its pixels
+    CHECK(ism::log_size({7, 9, 15, 10}, 30, 20, typical) == Approx(0).margin(1e-9));  // as large a part
+    CHECK(ism::log_size({7, 9, 15, 10}, 60, 40, typical) == Approx(std::log(0.25)));
+    CHECK(ism::log_size({7, 9, 15, 10}, 60, 20, typical) == Approx(std::log(0.5)));
+    CHECK(ism::log_size({0, 0, 60, 40}, 60, 40, typical) == 0);
+
+    ism::Model model;
+    CHECK(model.log_size_of(0, {7, 9, 15, 10}, 60, 40) == 0);
+    model.typical_sizes = {typical};
+    CHECK(model.log_size_of(0, {7, 9, 15, 10}, 60, 40) == Approx(std::log(0.25)));
+}
+
 TEST_CASE("cues are worth margins of a template") {
     const ism::CueWeights weights{
         .patches = 0.5, .words = 0.1, .votes = 0.2, .share = 0.4, .contrast = 1, .colors = 0.5, .size = 0.3};
@@ -138,8 +155,7 @@ TEST_CASE("cues are worth margins of a template") {
                             .vote_share = 0.5,
                             .color_overlap = 0.25,
                             .color_odds = 0.7,
-                            .log_area = ism::log_area({7, 9, 30, 20}, 60, 40)};
-    CHECK(cues.log_area == Approx(std::log(0.25)));
+                            .log_size = std::log(0.25)};
     CHECK(weights.margin(cues) ==
           Approx(0.5 - 0.4 - 0.2 + 0 + 0.4 * std::log(0.5) - 0.25 + 0.35 + 0.3 * std::log(0.25)));
     CHECK(ism::CueWeights().margin(cues) == 0.5);

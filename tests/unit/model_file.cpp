@@ -160,6 +160,7 @@ ism::Model random_model(std::size_t words = 5, std::size_t each = 4, int cells =
     for (std::size_t k = 0; k < ism::figure_color_bins; ++k)
         model.figure_colors[1].push_back(float(random.uniform(-3, 3)));
     model.typical_masks = {{}, {.mean = {0.5, 1.0 / 3, -2}, .deviation = {0.25, 1.0 / 7, 3}}};
+    model.typical_sizes = {{.log_px = 9.5, .log_part = -1.0 / 3}, {.log_px = 7, .log_part = -2}};
     model.placings.resize(2);
     model.placings[1].sides = {{{1.0 / 3, -0.125}, {1, ism::most_placing_offset}, {0, 0}, {0.5, 1.0 / 8}}};
     model.training = {12, 3456, 789};
@@ -204,6 +205,7 @@ void check_equal(const ism::Model& a, const ism::Model& b) {
     CHECK(a.figure_colors == b.figure_colors);
     CHECK(a.typical_masks == b.typical_masks);
     CHECK(a.placings == b.placings);
+    CHECK(a.typical_sizes == b.typical_sizes);
     CHECK(a.training == b.training);
     REQUIRE(a.shapes.objects.size() == b.shapes.objects.size());
     for (std::size_t i = 0; i < a.shapes.objects.size(); ++i) {
@@ -368,6 +370,9 @@ TEST_CASE("A model that could not be read again is not written") {
             [](ism::Model& m) { m.typical_masks[1].mean.extent = std::nan(""); });
     refuses("typical_masks: expected finite",
             [](ism::Model& m) { m.typical_masks[1].deviation.extent = -1; });
+    refuses("typical_sizes: expected 0 or 2", [](ism::Model& m) { m.typical_sizes.pop_back(); });
+    refuses("typical_sizes: expected finite",
+            [](ism::Model& m) { m.typical_sizes[1].log_part = -std::numeric_limits<double>::infinity(); });
     refuses("placings: expected 0 or 2", [](ism::Model& m) { m.placings.pop_back(); });
     refuses("placings: expected shares", [](ism::Model& m) { m.placings[1].sides[2].share = 1.5; });
     refuses("placings: expected shares", [](ism::Model& m) { m.placings[0].sides[3].offset = -0.2; });
@@ -483,7 +488,7 @@ TEST_CASE("A model file that contradicts itself is refused") {
         {": class names: expected 1 or more", [](File& f) { f.metadata["class_names"] = "[]"; }},
         {", class_names: expected texts", [](File& f) { f.metadata["class_names"] = "[3]"; }},
         {": reference_size_px: expected 200", [](File& f) { f.metadata["reference_size_px"] = "100"; }},
-        {": format version: expected 17, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
+        {": format version: expected 18, got 5", [](File& f) { f.metadata["format_version"] = "5"; }},
         {": object_places: expected -1e+06 ... 1e+06",
          [&](File& f) { set(f, "object_places", 4, ism::no_depth); }},
         {": depth and size of an object: expected 0 or more",

@@ -234,7 +234,7 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
                                                 .vote_weight = std::exp(random.uniform(-3, 3)),
                                                 .color_overlap = random.uniform(),
                                                 .color_odds = random.uniform(-2, 2),
-                                                .log_area = random.uniform(-4, 0)}};
+                                                .log_size = random.uniform(-4, 0)}};
             const double margin = weights.margin(box.cues) + double(box.class_index);
             box.right = random.uniform() < 1 / (1 + std::exp(-4 * margin));
             judged.push_back(box);
@@ -271,6 +271,20 @@ TEST_CASE("colours are learnt of classes whose objects have masks, and kept when
     CHECK(model.figure_colors_of(1).empty());
     CHECK(model.figure_colors_of(2).empty());
     CHECK(model.figure_colors == lending.figure_colors);
+    // So is how large they are.
+    REQUIRE(model.typical_sizes.size() == 2);
+    for (std::uint32_t c = 0; c < 2; ++c) {
+        std::vector<double> areas, parts;
+        for (const ism::TrainingView& view : pattern_features().views)
+            for (const ism::ObjectLabel& label : view.labels)
+                if (label.class_index == c) {
+                    areas.push_back(label.box.area());
+                    parts.push_back(label.box.area() / (view.width * view.height));
+                }
+        std::sort(areas.begin(), areas.end()), std::sort(parts.begin(), parts.end());
+        CHECK(std::exp(model.typical_sizes[c].log_px) == Approx(areas[areas.size() / 2]));
+        CHECK(std::exp(model.typical_sizes[c].log_part) == Approx(parts[parts.size() / 2]));
+    }
     // What masks are like, and where objects lie by them, is known of classes that lend theirs.
     REQUIRE(model.typical_masks.size() == 2);
     CHECK(model.typical_masks[0].known());

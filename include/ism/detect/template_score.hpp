@@ -107,7 +107,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
         BoxCues cues{.margin = margins[i],
                      .vote_weight = voted.weight(c, detection.box),
                      .vote_share = voted.share(c, detection.box),
-                     .log_area = log_area(detection.box, color.width(), color.height())};
+                     .log_size = model.log_size_of(c, detection.box, color.width(), color.height())};
         if (encoder)
             cues.patch_margin =
                 model.patch_classifier.margin(c, encoder->encode(pyramid, detection.box, scratches[worker]));

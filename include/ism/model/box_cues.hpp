@@ -19,9 +19,19 @@ inline constexpr std::size_t figure_numbers = std::size_t(figure_samples) * figu
 /// row after row.
 using ClassFigure = std::vector<float>;
 
-/// @brief The logarithm of the part of a picture that a box covers.
-[[nodiscard]] inline double log_area(const Box& box, int width, int height) {
-    return std::log(box.area() / (double(width) * double(height)));
+/// @brief How large objects of a class were in training: logarithms of areas of boxes, medians.
+struct TypicalSize {
+    double log_px = 0;    ///< square pixels
+    double log_part = 0;  ///< parts of their picture
+    [[nodiscard]] bool operator==(const TypicalSize&) const = default;
+};
+
+/// @brief How small a box is for its class: the logarithm of its area beside what is typical, 0 where it is
+/// no smaller. What is small in a wide picture may have all its pixels, and what has few may be all of a
+/// small picture: the larger of both counts.
+[[nodiscard]] inline double log_size(const Box& box, int width, int height, const TypicalSize& typical) {
+    const double log_px = std::log(box.area()), log_part = log_px - std::log(double(width) * double(height));
+    return std::min(0.0, std::max(log_px - typical.log_px, log_part - typical.log_part));
 }
 
 /// @brief What speaks for and against an object of a class in a box.
@@ -33,7 +43,7 @@ struct BoxCues {
     double vote_share = 1;     ///< of the class in that of all classes, see VotedBoxes::share()
     double color_overlap = 1;  ///< of figure and ground, 0 … 1, see color_overlap()
     double color_odds = 0;     ///< of figure and ground, by the colours of the class, see color_odds()
-    double log_area = 0;       ///< of the box in parts of the picture: false boxes are mostly small
+    double log_size = 0;       ///< 0 or less, see log_size(): false boxes are mostly small
 };
 
 /// @brief What each cue adds to the margin of all, or, together with `any`, which is the same for all boxes
@@ -76,7 +86,7 @@ struct CueWeights {
     double share = 0;     ///< e times the share in the votes of all classes
     double contrast = 0;  ///< colours of figure and ground that have nothing in common
     double colors = 0;    ///< a logarithm of odds of the colours of the class
-    double size = 0;      ///< e times the area
+    double size = 0;      ///< e times the area, up to what is typical
     [[nodiscard]] bool operator==(const CueWeights&) const = default;
 
     /// @brief What each cue adds to the margin of all.
@@ -88,7 +98,7 @@ struct CueWeights {
                 .share = share * std::log(cues.vote_share),
                 .contrast = -contrast * cues.color_overlap,
                 .colors = colors * cues.color_odds,
-                .size = size * cues.log_area};
+                .size = size * cues.log_size};
     }
     /// @brief The margin of all cues together.
     [[nodiscard]] double margin(const BoxCues& cues) const { return reasons(cues).sum(); }

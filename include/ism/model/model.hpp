@@ -52,6 +52,7 @@ struct Model {
     PatchClassifier patch_classifier = {};         ///< of boxes that templates placed; may be empty
     CueWeights cue_weights = {};                   ///< of what judges boxes with the templates
     std::vector<ClassFigure> figures = {};         ///< of each class; may be empty
+    std::vector<TypicalSize> typical_sizes = {};   ///< of each class; may be empty
     Calibration template_calibration = {};         ///< of templates with the other cues; may be empty
     std::vector<MaskExemplar> exemplars = {};      ///< whose masks are lent; may be empty
     std::vector<FigureColors> figure_colors = {};  ///< of each class; may be empty
@@ -73,6 +74,11 @@ struct Model {
     [[nodiscard]] std::span<const float> figure_colors_of(std::size_t class_index) const {
         if (class_index >= figure_colors.size()) return {};
         return figure_colors[class_index];
+    }
+    /// @brief How small a box is for its class, see log_size(); 0 where nothing is known of its size.
+    [[nodiscard]] double log_size_of(std::size_t class_index, const Box& box, int width, int height) const {
+        if (class_index >= typical_sizes.size()) return 0;
+        return log_size(box, width, height, typical_sizes[class_index]);
     }
     /// @brief How boxes of a class are placed; the usual way where it is not known.
     [[nodiscard]] Placing placing_of(std::size_t class_index) const {

@@ -229,6 +229,27 @@ inline void typical_masks_to_tensor(std::span<const TypicalMask> masks, TensorFi
     return masks;
 }
 
+/// Of each class: of square pixels, of parts of the picture.
+inline void typical_sizes_to_tensor(std::span<const TypicalSize> sizes, TensorFile& file) {
+    std::vector<double> numbers;
+    for (const TypicalSize& size : sizes) numbers.insert(numbers.end(), {size.log_px, size.log_part});
+    file.tensors["typical_sizes"] = make_tensor<double>(numbers, {sizes.size(), 2});
+}
+
+[[nodiscard]] inline std::vector<TypicalSize> typical_sizes_from_tensor(const TensorFile& file,
+                                                                        std::size_t classes) {
+    const auto numbers = values<double>(file, "typical_sizes", {any_length, 2});
+    const std::size_t count = numbers.size() / 2;
+    expect<FileError>(count == 0 || count == classes, lazy_text(file.source, ": typical_sizes"),
+                      lazy_text("0 or ", classes), count);
+    for (const double number : numbers)
+        expect<FileError>(std::isfinite(number), lazy_text(file.source, ": typical_sizes"), "finite numbers",
+                          number);
+    std::vector<TypicalSize> sizes;
+    for (std::size_t c = 0; c < count; ++c) sizes.push_back({numbers[2 * c], numbers[2 * c + 1]});
+    return sizes;
+}
+
 /// Of each class and each side, left, top, right, bottom: share and offset.
 inline void placings_to_tensor(std::span<const Placing> placings, TensorFile& file) {
     std::vector<double> numbers;

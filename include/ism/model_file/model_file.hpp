@@ -28,7 +28,7 @@ namespace ism {
 namespace detail {
 
 inline constexpr std::string_view model_format = "ism model";
-inline constexpr std::int64_t model_format_version = 17;
+inline constexpr std::int64_t model_format_version = 18;
 
 /// A number that stands in the metadata.
 [[nodiscard]] inline double metadata_number(const TensorFile& file, const std::string& key) {
@@ -103,8 +103,8 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     TensorFile file{.source = source};
     // A member that is added to Model does not compile here until it is kept too.
     const auto& [channels, shapes, box_classifier, calibration, templates, patch_classifier, cue_weights,
-                 figures, template_calibration, exemplars, figure_colors, typical_masks, placings, mask_judge,
-                 training, rgbd] = model;
+                 figures, typical_sizes, template_calibration, exemplars, figure_colors, typical_masks,
+                 placings, mask_judge, training, rgbd] = model;
     expect<FileError>(model.words() > 0 && shapes.occurrences.size() == model.words(),
                       lazy_text(source, ": words with occurrences"), model.words(),
                       shapes.occurrences.size());
@@ -134,6 +134,7 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     patch_classifier_to_tensors(patch_classifier, file);
     cue_weights_to_tensor(cue_weights, file);
     figures_to_tensor(figures, file);
+    typical_sizes_to_tensor(typical_sizes, file);
     calibration_to_tensors(template_calibration, "template_calibration", file);
     exemplars_to_tensors(exemplars, file);
     figure_colors_to_tensors(figure_colors, file);
@@ -197,6 +198,7 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
     model.patch_classifier = patch_classifier_from_tensors(file, classes);
     model.cue_weights = cue_weights_from_tensor(file);
     model.figures = figures_from_tensor(file, classes);
+    model.typical_sizes = typical_sizes_from_tensor(file, classes);
     model.template_calibration = calibration_from_tensors(file, "template_calibration", classes);
     model.exemplars = exemplars_from_tensors(file, model.shapes.objects.size());
     model.figure_colors = figure_colors_from_tensors(file, classes);

@@ -100,6 +100,7 @@ struct FoldJudges {
                                                          std::span<const TemplateScorer> scorers,
                                                          const FoldJudges& judges,
                                                          std::span<const ClassFigure> figures,
+                                                         std::span<const TypicalSize> sizes,
                                                          const HogPyramid& pyramid, ThreadPool& pool) {
     std::vector<JudgedBox> judged;
     const FisherEncoder encoder(judges.patches.mixture);
@@ -123,7 +124,7 @@ struct FoldJudges {
                          .vote_share = image.voted.share(c, box.box),
                          .color_overlap = color_overlap(colors),
                          .color_odds = color_odds(colors, judges.colors[c]),
-                         .log_area = log_area(box.box, image.color.width(), image.color.height())};
+                         .log_size = log_size(box.box, image.color.width(), image.color.height(), sizes[c])};
             if (!judges.words.empty())
                 cues.word_logit = judges.words.logit(c, image.words.histogram(box.box));
             judged.push_back({image_index, c, box.box, cues, right});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,10 +12,12 @@
 
 #include "ism/core/error.hpp"
 #include "ism/core/lists.hpp"
+#include "ism/core/order.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/asked_proposals.hpp"
 #include "ism/detect/proposals.hpp"
+#include "ism/model/box_cues.hpp"
 #include "ism/model/figure_colors.hpp"
 #include "ism/train/cross_judge.hpp"
 #include "ism/train/describe_object.hpp"
@@ -54,6 +57,27 @@ namespace detail {
         if (image.labels[i].class_index == class_index && image.masks[i])
             objects.push_back({image.color, image.labels[i].box, image.masks[i]});
     return objects;
+}
+
+/// How large the objects of each class are.
+[[nodiscard]] inline std::vector<TypicalSize> typical_sizes(std::span<const TemplateImage> images,
+                                                            std::size_t classes) {
+    std::vector<TypicalSize> sizes;
+    for (std::uint32_t c = 0; c < classes; ++c) {
+        std::vector<float> log_px, log_parts;
+        for (const TemplateImage& image : images)
+            for (const ObjectLabel& label : image.labels)
+                if (label.class_index == c) {
+                    const double area = label.box.area();
+                    const double picture = double(image.color.width()) * double(image.color.height());
+                    log_px.push_back(float(std::log(area)));
+                    log_parts.push_back(float(std::log(area / picture)));
+                }
+        if (log_px.empty()) return {};  // TemplateFitter refuses it
+        const std::size_t middle = log_px.size() / 2;
+        sizes.push_back({nth_smallest(log_px, middle), nth_smallest(log_parts, middle)});
+    }
+    return sizes;
 }
 
 /// The images that a class does not learn from: of those that do not show it all but an even choice.
@@ -193,8 +217,8 @@ struct FittedJudges {
                         describer.others(i, fits[f].taken[i], f == 0 ? 1 : fits.size() - 1, pyramid);
             for (std::size_t f = 1; f < fits.size() && round == fold_rounds + 1; ++f)
                 if (!fitter.sees(fits[f], i))
-                    judged[i] =
-                        judged_boxes(i, images[i], fits[f].scorers, judges[f], model.figures, pyramid, pool);
+                    judged[i] = judged_boxes(i, images[i], fits[f].scorers, judges[f], model.figures,
+                                             model.typical_sizes, pyramid, pool);
             counter.step();
         });
         fitter.fit(going_on, workers.pool());
@@ -228,6 +252,7 @@ struct FittedJudges {
     expect(!images.empty(), "templates: training images with pixels", "1 or more", 0);
     const std::size_t classes = model.shapes.class_names.size();
     model.figures = mean_figures(model.shapes);
+    model.typical_sizes = detail::typical_sizes(images, classes);
     detail::FittedJudges fitted = detail::fit_judges(images, model, options, threads, progress);
     model.cue_weights = detail::fit_cue_weights(fitted.judged, classes);
     model.template_calibration = detail::calibrated(fitted.judged, model.cue_weights, classes);
