@@ -100,6 +100,8 @@ template <ism::Rescorer R, ism::Segmenter S, ism::Verifier V>
     other = recognition;
     other.rescorer.rivals.wholes_and_parts = false;
     add("wholes and parts do not exclude each other", finder(model, other));
+    other.verifier.max_inside = 0.5;
+    add("… but the weaker is left out", finder(model, other));
     program::SearchOptions of_patches = search;
     of_patches.segmenter = "patches";
     add("masks of patches", finder(model, of_patches));

@@ -48,11 +48,14 @@ struct ChosenSegmenter {
 /// A verifier chosen at run time.
 struct ChosenVerifier {
     bool suppression = false;
+    double max_inside = 0.5;  ///< where no probabilities tell a whole from its parts
     [[nodiscard]] bool needs_masks() const { return !suppression; }
     [[nodiscard]] std::vector<ism::Verified> verify(const std::vector<ism::Detection>& hypotheses,
                                                     const ism::Scene& scene) const {
-        return suppression ? ism::NonMaximumSuppression{.across_classes = false}.verify(hypotheses, scene)
-                           : ism::Mdl{}.verify(hypotheses, scene);
+        return suppression
+                   ? ism::NonMaximumSuppression{.max_inside = max_inside, .across_classes = false}.verify(
+                         hypotheses, scene)
+                   : ism::Mdl{}.verify(hypotheses, scene);
     }
 };
 
@@ -84,6 +87,7 @@ ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
                                                             : Kind::boxes;
     recognition.rescorer.explain = search.explain;
     recognition.verifier.suppression = search.verifier == "nms" || (search.verifier == "auto" && templates);
+    if (templates && scene.model.template_calibration.tells_apart()) recognition.verifier.max_inside = 1;
     if (templates)
         recognition.options = ism::proposal_options<Space>(),
         recognition.bandwidth = ism::proposal_bandwidth<Space>();

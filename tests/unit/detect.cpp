@@ -104,6 +104,10 @@ TEST_CASE("non-maximum suppression keeps the strongest of those that overlap") {
     hypotheses[0].class_index = 1;
     CHECK(ism::NonMaximumSuppression{.max_iou = 0.5}.verify(hypotheses).size() == 2);
     CHECK(ism::NonMaximumSuppression{.max_iou = 0.5, .across_classes = false}.verify(hypotheses).size() == 3);
+
+    const std::vector<ism::Detection> whole_and_part{block(0, 0, 40, 40, 3), block(5, 5, 10, 10, 2)};
+    CHECK(ism::NonMaximumSuppression{}.verify(whole_and_part).size() == 2);
+    CHECK(ism::NonMaximumSuppression{.max_inside = 0.5}.verify(whole_and_part).size() == 1);
 }
 
 TEST_CASE("MDL savings follow the formula") {

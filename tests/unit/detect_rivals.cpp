@@ -113,6 +113,12 @@ TEST_CASE("a whole and what lies in it exclude each other") {
     CHECK(kept[1].probability == Approx(0.5));
 }
 
+TEST_CASE("flat curves do not tell hypotheses apart") {
+    CHECK(calibration.tells_apart());
+    CHECK_FALSE(ism::Calibration{}.tells_apart());
+    CHECK_FALSE(ism::Calibration{{{.slope = 0, .offset = 1}}}.tells_apart());
+}
+
 TEST_CASE("softplus takes any number") {
     CHECK(ism::softplus(0) == Approx(std::log(2)));
     CHECK(ism::softplus(1) == Approx(std::log1p(std::exp(1))));

@@ -157,7 +157,8 @@ template <Callable<const Frame&> Find>
         detail::add_stats(all.stats, found.stats);
     }
     if (!calibration.empty()) yield_to_rivals(all.objects, calibration, options.rivals);
-    const NonMaximumSuppression suppression{.across_classes = calibration.empty()};
+    const NonMaximumSuppression suppression{.max_inside = calibration.tells_apart() ? 1 : 0.5,
+                                            .across_classes = calibration.empty()};
     std::vector<Detection> strongest;
     for (const Verified& verified : suppression.verify(all.objects)) {
         Detection& object = all.objects[verified.index];

@@ -58,7 +58,8 @@ template <class AreOne>
 
 /// @brief Plain non-maximum suppression: of hypotheses whose boxes overlap the strongest stays.
 struct NonMaximumSuppression {
-    double max_iou = 0.4;        ///< boxes that overlap more are of one object
+    double max_iou = 0.4;   ///< boxes that overlap more are of one object
+    double max_inside = 1;  ///< … or of which a larger part lies within the stronger; 1 = none of these
     bool across_classes = true;  ///< whether classes suppress each other
 
     /// @brief Boxes are enough.
@@ -69,7 +70,9 @@ struct NonMaximumSuppression {
         return detail::strongest_of_each(hypotheses, [&](std::size_t stronger, std::size_t weaker) {
             const Detection &rival = hypotheses[stronger], &own = hypotheses[weaker];
             return (across_classes || rival.class_index == own.class_index) &&
-                   iou(rival.box, own.box) > max_iou;
+                   (iou(rival.box, own.box) > max_iou ||
+                    (max_inside < 1 &&
+                     intersection(rival.box, own.box).area() > max_inside * own.box.area()));
         });
     }
     [[nodiscard]] std::vector<Verified> verify(const std::vector<Detection>& hypotheses, const Scene&) const {
@@ -82,6 +85,8 @@ struct NonMaximumSuppression {
 inline void check(const NonMaximumSuppression& options) {
     expect(options.max_iou >= 0 && options.max_iou <= 1, "NonMaximumSuppression::max_iou", "0 ... 1",
            options.max_iou);
+    expect(options.max_inside >= 0 && options.max_inside <= 1, "NonMaximumSuppression::max_inside", "0 ... 1",
+           options.max_inside);
 }
 
 /// @brief What a set of hypotheses saves: each has its own savings, and each pair pays for what both claim.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -22,6 +23,10 @@ struct Calibration {
     std::vector<Curve> curves;  ///< one a class
 
     [[nodiscard]] bool empty() const { return curves.empty(); }
+    /// @brief Whether it tells hypotheses apart; curves are flat where there were too few examples.
+    [[nodiscard]] bool tells_apart() const {
+        return std::any_of(curves.begin(), curves.end(), [](const Curve& curve) { return curve.slope > 0; });
+    }
 
     /// @brief The probability, 0 … 1, that a hypothesis of a class with this score shows an object of it; NaN
     /// where it is not known.
