@@ -48,7 +48,7 @@ struct ChosenSegmenter {
 /// A verifier chosen at run time.
 struct ChosenVerifier {
     bool suppression = false;
-    double max_inside = 0.5;  ///< where no probabilities tell a whole from its parts
+    double max_inside = 0.5;  ///< templates tell a whole from its parts themselves
     [[nodiscard]] bool needs_masks() const { return !suppression; }
     [[nodiscard]] std::vector<ism::Verified> verify(const std::vector<ism::Detection>& hypotheses,
                                                     const ism::Scene& scene) const {
@@ -87,10 +87,11 @@ ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
                                                             : Kind::boxes;
     recognition.rescorer.explain = search.explain;
     recognition.verifier.suppression = search.verifier == "nms" || (search.verifier == "auto" && templates);
-    if (templates && scene.model.template_calibration.tells_apart()) recognition.verifier.max_inside = 1;
-    if (templates)
-        recognition.options = ism::proposal_options<Space>(),
+    if (templates) {
+        recognition.options = ism::proposal_options<Space>();
         recognition.bandwidth = ism::proposal_bandwidth<Space>();
+        recognition.verifier.max_inside = 1;
+    }
     recognition.options.min_probability = min_probability(search, scene.model);
     recognition.options.min_relative_score = search.keep.value_or(recognition.options.min_relative_score);
     return ism::recognise(std::move(scene), recognition);

@@ -77,6 +77,28 @@ const TypedModel& model_with_templates() {
 
 }  // namespace
 
+TEST_CASE("templates that were not calibrated leave parts of what they found out") {
+    TypedModel model = model_with_templates();  // whose templates now find all boxes alike
+    for (ism::BoxTemplate& one : model.templates) std::fill(one.weights.begin(), one.weights.end(), 0.0f);
+    model.cue_weights = {};
+    const auto test = pattern_picture(0, 71, 53, 90);
+    ism::ThreadPool pool(1);
+    const ism::Scene scene{.frame = test.frame, .model = model, .pool = pool};
+    ism::Detection whole, part;
+    whole.box = {20, 10, 80, 80}, part.box = {24, 14, 40, 40};
+    const auto nested = [&] {
+        const auto found = ism::TemplateScore{}.rescore({whole, part}, scene);
+        std::size_t pairs = 0;
+        for (const ism::Detection& a : found)
+            for (const ism::Detection& b : found)
+                pairs += a.class_index == b.class_index && ism::is_part(a.box, b.box);
+        return pairs;
+    };
+    CHECK(nested() > 0);
+    model.template_calibration = {};
+    CHECK(nested() == 0);
+}
+
 TEST_CASE("templates judge and place what votes propose") {
     const TypedModel& model = model_with_templates();
     REQUIRE(model.templates.size() == 2);

@@ -22,6 +22,7 @@
 #include "ism/detect/proposals.hpp"
 #include "ism/detect/rivals.hpp"
 #include "ism/detect/scene.hpp"
+#include "ism/detect/verify.hpp"
 #include "ism/detect/voted_boxes.hpp"
 #include "ism/hog/fisher_vector.hpp"
 #include "ism/hog/propose_boxes.hpp"
@@ -42,8 +43,8 @@ struct TemplateScore {
         asked_classes;  ///< that are asked about a hypothesis, those of most vote weight there
     double min_agreement =
         VotedBoxes::default_agreement;  ///< IoU of the box that a vote stands for with that of the detection
-    RivalOptions rivals = {};           ///< see yield_to_rivals()
-    bool explain = false;               ///< also tell which cells of a template speak for and against
+    RivalOptions rivals = {};  ///< see yield_to_rivals(); where nothing is calibrated parts are left out
+    bool explain = false;      ///< also tell which cells of a template speak for and against
 
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene& scene) const;
 };
@@ -137,8 +138,16 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
         }
         move_to(detection, detection.box, scene.frame.camera);
     });
-    if (!model.template_calibration.empty()) yield_to_rivals(found, model.template_calibration, rivals);
-    return found;
+    if (model.template_calibration.tells_apart()) {
+        yield_to_rivals(found, model.template_calibration, rivals);
+        return found;
+    }
+    // No probability tells a whole from its parts: what lies within a stronger box is left out.
+    std::vector<Detection> kept;
+    for (const Verified& verified :
+         NonMaximumSuppression{.max_inside = 0.5, .across_classes = false}.verify(found))
+        kept.push_back(std::move(found[verified.index]));
+    return kept;
 }
 
 }  // namespace ism
