@@ -48,7 +48,7 @@ struct ChosenSegmenter {
 /// A verifier chosen at run time.
 struct ChosenVerifier {
     bool suppression = false;
-    double max_inside = 0.5;  ///< templates tell a whole from its parts themselves
+    double max_inside = 0.5;  ///< 1 for templates, which tell a whole from its parts themselves
     [[nodiscard]] bool needs_masks() const { return !suppression; }
     [[nodiscard]] std::vector<ism::Verified> verify(const std::vector<ism::Detection>& hypotheses,
                                                     const ism::Scene& scene) const {
