@@ -19,6 +19,9 @@ endif()
 if(ISM_NATIVE)
     target_compile_options(ism_dev_options INTERFACE -march=native)
 endif()
+# A product is rounded before it is added to, also where the processor could do both at once: whether a compiler joins them
+# depends on what it inlines, and programs built apart, or for other processors, would differ in last bits.
+target_compile_options(ism_dev_options INTERFACE -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # its garbage collector begins at 700 MB, not at 128: about a tenth of the time
     target_compile_options(ism_dev_options INTERFACE --param=ggc-min-heapsize=700000)
     if(CMAKE_CXX_COMPILER_VERSION MATCHES "^12\\.") # which warns of "text" + string where nothing overlaps (gcc's bug 105651)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.22)
 
-# WAY is include_path, single_header, pkg_config or own_libraries: programs that are compiled by hand, without CMake.
+# WAY is include_path, single_header, pkg_config, own_libraries or same_bits: programs that are compiled by hand, without CMake.
 function(step what)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output
                     OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -92,5 +92,16 @@ elseif(WAY STREQUAL "own_libraries")
     run()
     if(NOT output MATCHES "nanoflann 999")
         message(FATAL_ERROR "consumer by ${WAY}: expected the program's own nanoflann, got '${output}'")
+    endif()
+
+elseif(WAY STREQUAL "same_bits")
+    # Compiled for any processor and for this very one, where products are rounded before they are added to.
+    step("compile" ${compile} -O1 "-I${ISM_SOURCE}/include" "${source}/same_bits.cpp")
+    step("run" "${SCRATCH}/program")
+    set(plain "${output}")
+    step("compile" ${compile} -O3 -march=native -ffp-contract=off "-I${ISM_SOURCE}/include" "${source}/same_bits.cpp")
+    step("run" "${SCRATCH}/program")
+    if(NOT output STREQUAL plain OR NOT plain MATCHES "^[1-9][0-9]* features, ")
+        message(FATAL_ERROR "consumer by ${WAY}: expected the same bits for this processor as for any, '${plain}', got '${output}'")
     endif()
 endif()

@@ -12,7 +12,7 @@ foreach(way find_package add_subdirectory fetch_content)
 endforeach()
 # Programs compiled by hand.
 set(hints "$<TARGET_PROPERTY:ism_include_dirs,INCLUDE_DIRECTORIES>")
-foreach(way include_path single_header pkg_config own_libraries)
+foreach(way include_path single_header pkg_config own_libraries same_bits)
     add_test(NAME consumer/${way}
              COMMAND "${CMAKE_COMMAND}" "-DWAY=${way}" "-DISM_SOURCE=${PROJECT_SOURCE_DIR}" "-DISM_BUILD=${CMAKE_BINARY_DIR}"
                      "-DSCRATCH=${test_build_dir}/consumer/${way}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DVERSION=${PROJECT_VERSION}"
