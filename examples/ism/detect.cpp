@@ -120,11 +120,10 @@ private:
 };
 
 /// The most probable of what was left out, as a result without a mask.
-std::optional<ism::Result> next_best(std::optional<ism::Detection> best, const ism::DatasetImage& image,
+std::optional<ism::Result> next_best(ism::Detection best, const ism::DatasetImage& image,
                                      const ism::ShapeModel& shapes) {
-    if (!best) return {};
-    best->segmentation = {};
-    std::vector<ism::Result> results = ism::to_results({.objects = {*best}}, image, shapes);
+    best.segmentation = {};
+    std::vector<ism::Result> results = ism::to_results({.objects = {best}}, image, shapes);
     if (results.empty()) return {};
     results[0].segmentation.reset();
     return std::move(results[0]);
@@ -223,7 +222,10 @@ Outcome search_images(Searcher& searcher, const DetectCommand& command, const De
                 .height = image.height,
                 .results = ism::to_results(found, image, shapes)};
         if (command.images.empty()) here.image_id = image.id;
-        if (here.results.empty()) here.next_best = next_best(std::move(found.next_best), image, shapes);
+        if (here.results.empty() && found.next_best) {
+            here.mask_judged_best = !found.next_best->segmentation.figure.empty();
+            here.next_best = next_best(std::move(*found.next_best), image, shapes);
+        }
         write_overlays(overlays, input, i, frame->color, found);
         if (line != nullptr) told.add(i, line(here));
         if (!lines_shown) progress.step("detecting", count);

@@ -100,10 +100,12 @@ std::string nothing_found_text(const FoundInImage& found) {
     std::string text = ism::one_line(found.name) + ": nothing found";
     if (!found.next_best || found.next_best->probability < 0.01) return text;
     const ism::Result& best = *found.next_best;
-    // A limit of two digits that the guess meets.
+    text += "; the best guess is " + ism::one_line(best.class_name) + ", " + probability_text(best);
+    if (!found.mask_judged_best)
+        return text + " before its mask judges it, at " + box_text(best.box) + " (--min-score 0 tells it)";
+    // a limit of two digits that the guess meets
     const double limit = std::floor(100 * best.probability) / 100;
-    return text + "; the best guess is " + ism::one_line(best.class_name) + ", " + probability_text(best) +
-           ", at " + box_text(best.box) + " (told with --min-score " + ism::fixed_text(limit, 2) + ")";
+    return text + ", at " + box_text(best.box) + " (told with --min-score " + ism::fixed_text(limit, 2) + ")";
 }
 
 }  // namespace program

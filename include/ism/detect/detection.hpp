@@ -96,8 +96,8 @@ struct Detections {
     std::vector<Detection> objects = {};  ///< strongest first
     std::vector<Feature> features = {};   ///< what Support::feature points into
     DetectionStats stats = {};
-    std::optional<Detection> next_best =
-        {};  ///< the most probable of what DetectOptions::min_probability left out; it may lack a mask
+    std::optional<Detection> next_best = {};  ///< the most probable of what DetectOptions::min_probability
+                                              ///< left out. It may lack a mask: then none has judged it
 };
 
 }  // namespace ism
