@@ -223,7 +223,7 @@ Outcome search_images(Searcher& searcher, const DetectCommand& command, const De
                 .results = ism::to_results(found, image, shapes)};
         if (command.images.empty()) here.image_id = image.id;
         if (here.results.empty() && found.next_best) {
-            here.mask_judged_best = !found.next_best->segmentation.figure.empty();
+            here.best_is_cut_out = !found.next_best->segmentation.figure.empty();
             here.next_best = next_best(std::move(*found.next_best), image, shapes);
         }
         write_overlays(overlays, input, i, frame->color, found);

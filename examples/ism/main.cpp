@@ -133,7 +133,8 @@ asked for.
 --json: one object an image: file, width, height, detections [class, category_id, probability, score, scale,
 bbox, segmentation (COCO run lengths), and where they are known depth_m, position_m, position_error_m,
 angle_rad of what is turned, from x towards y]; image_id of a data set; next_best, where nothing was
-found, the most probable guess, as a rule before its mask judges it. Lines to a pipe go out as soon as their image is done, in the order of the images.
+found, the most probable guess, as a rule before it is cut out and its mask judges it. Lines to a pipe go out
+as soon as their image is done, in the order of the images.
 
 Category ids are those of the data that the model was trained on (1, 2, ... where it does not know them), also
 with --data; image ids are those of the data, of images on the command line 1, 2, ...

@@ -101,8 +101,8 @@ std::string nothing_found_text(const FoundInImage& found) {
     if (!found.next_best || found.next_best->probability < 0.01) return text;
     const ism::Result& best = *found.next_best;
     text += "; the best guess is " + ism::one_line(best.class_name) + ", " + probability_text(best);
-    if (!found.mask_judged_best)
-        return text + " before its mask judges it, at " + box_text(best.box) + " (--min-score 0 tells it)";
+    if (!found.best_is_cut_out)
+        return text + " before it is cut out, at " + box_text(best.box) + " (--min-score 0 tells it)";
     // a limit of two digits that the guess meets
     const double limit = std::floor(100 * best.probability) / 100;
     return text + ", at " + box_text(best.box) + " (told with --min-score " + ism::fixed_text(limit, 2) + ")";

@@ -18,7 +18,7 @@ struct FoundInImage {
     int width = 0, height = 0;                  ///< pixels
     std::vector<ism::Result> results = {};      ///< strongest first
     std::optional<ism::Result> next_best = {};  ///< the most probable of what --min-score left out
-    bool mask_judged_best = false;              ///< whether that was cut out, so that its mask judged it
+    bool best_is_cut_out = false;               ///< so that its mask has judged it
 };
 
 /// One line an object, its fields separated by tabulators: image, class, probability, x, y, width, height,

@@ -4,7 +4,7 @@
 // Prints a number that changes with every bit of what is computed from a picture (synthetic): its features,
 // and the cells of a box with their Fisher vector.
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -20,21 +20,9 @@
 #include "ism/hog/describe_cells.hpp"
 #include "ism/hog/fisher_vector.hpp"
 #include "ism/hog/hog_pyramid.hpp"
+#include "ism/model_file/tensor_checksum.hpp"
 
 namespace {
-
-// FNV-1a
-class Digest {
-public:
-    void add(float value) { hash_ = (hash_ ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001b3u; }
-    void add(std::span<const float> values) {
-        for (const float value : values) add(value);
-    }
-    [[nodiscard]] std::uint64_t hash() const { return hash_; }
-
-private:
-    std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
 
 [[nodiscard]] ism::RgbImage blots(int width, int height, ism::Random& random) {
     ism::RgbImage picture(width, height);
@@ -53,14 +41,15 @@ private:
 int main() {
     ism::Random random(1);
     const ism::RgbImage picture = blots(160, 120, random);
-    Digest digest;
+    ism::detail::Checksum sum;
+    const auto add = [&](std::span<const float> values) { sum.add(values.data(), values.size_bytes()); };
 
     ism::FeatureExtractor<ism::HessianLaplace, ism::RootSift> extractor({}, 1);
     const auto& set = extractor.extract(ism::to_gray(picture).view());
     for (std::size_t i = 0; i < set.features.size(); ++i) {
         const ism::Feature& f = set.features[i];
-        for (const float value : {f.x, f.y, f.scale}) digest.add(value);
-        digest.add(set.descriptors.row(i));
+        add(std::array{f.x, f.y, f.scale});
+        add(set.descriptors.row(i));
     }
 
     ism::PatchMixture mixture;
@@ -77,9 +66,8 @@ int main() {
     ism::HogPyramid pyramid;
     pyramid.assign(picture, 0, pool);
     ism::CellScratch scratch;
-    digest.add(ism::FisherEncoder(mixture).encode(pyramid, {13.3, 7.1, 101.7, 88.9}, scratch));
-    digest.add(scratch.cells);
+    add(ism::FisherEncoder(mixture).encode(pyramid, {13.3, 7.1, 101.7, 88.9}, scratch));
+    add(scratch.cells);
 
-    std::printf("%zu features, %016llx\n", set.features.size(),
-                static_cast<unsigned long long>(digest.hash()));
+    std::printf("%zu features, %s\n", set.features.size(), sum.text().c_str());
 }

@@ -124,7 +124,7 @@ cmp other.txt same.txt || fail "evaluation does not go by names"
 # Nothing found is said, with the best guess; it comes with the score that is named.
 "${detect[@]}" photos/0.png --min-score 1 >none.txt 2>guess.txt
 [[ ! -s none.txt ]] || fail "--min-score 1: $(cat none.txt)"
-grep -qE "^photos/0.png: nothing found; the best guess is [a-z]+, [0-9.]+ % before its mask judges it, at [0-9, ]+ \(--min-score 0 tells it\)$" guess.txt ||
+grep -qE "^photos/0.png: nothing found; the best guess is [a-z]+, [0-9.]+ % before it is cut out, at [0-9, ]+ \(--min-score 0 tells it\)$" guess.txt ||
     fail "nothing found: $(cat guess.txt)"
 # What was cut out to know is told by the limit that is named: one a little above what it has.
 probability=$("${detect[@]}" photos/0.png --min-score 0 --json - 2>/dev/null | grep -oE '"probability":[0-9.]+' | head -1 | cut -d : -f 2)
