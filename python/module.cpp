@@ -20,6 +20,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "ism/dataset/coco.hpp"
+#include "ism/dataset/labelled_image.hpp"
 #include "ism/dataset/to_results.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/model_file/model_file.hpp"
@@ -196,23 +197,10 @@ PythonModel train(const py::object& coco, const py::object& images, const py::ob
     const py::gil_scoped_release released;
     ism::TrainingSet set = ism::training_set(std::span<const ism::TrainingImage>());
     set.size = dataset.images.size();
-    set.labels = [&](std::size_t i) {
-        std::vector<ism::ObjectLabel> labels;
-        for (const ism::DatasetAnnotation& object : dataset.images[i].objects)
-            if (!object.crowd) labels.push_back({object.class_index, object.box});
-        return labels;
-    };
+    set.labels = [&](std::size_t i) { return ism::object_labels(dataset.images[i]); };
     set.image = [&](std::size_t i) {
         const ism::DatasetImage& image = dataset.images[i];
-        ism::TrainingImage training{.frame = to_frame(arrays[i], image.camera), .name = image.file.string()};
-        for (const ism::DatasetAnnotation& object : image.objects)
-            if (!object.crowd)
-                training.objects.push_back({.class_index = object.class_index,
-                                            .box = object.box,
-                                            .mask = ism::read_mask(image, object),
-                                            .instance = object.instance,
-                                            .position_m = object.position_m});
-        return training;
+        return ism::to_training_image(image, to_frame(arrays[i], image.camera));
     };
     for (std::size_t i = 0; i < set.size; ++i) ism::check(set.image(i), dataset.class_names.size());
 

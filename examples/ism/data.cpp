@@ -12,11 +12,12 @@ namespace program {
 
 namespace {
 
-/// Leaves out, and tells, labels that cannot be learnt from.
-void leave_out_bad_masks(ism::Dataset& dataset, ism::Faults& faults) {
+/// Tells masks that make no sense; their objects are ignored as crowds are.
+void ignore_bad_masks(ism::Dataset& dataset, ism::Faults& faults) {
     for (ism::DatasetImage& image : dataset.images)
-        std::erase_if(image.objects, [&](const ism::DatasetAnnotation& object) {
-            return !object.crowd && !ism::read_or_tell(&faults, [&] {
+        for (ism::DatasetAnnotation& object : image.objects) {
+            if (object.crowd) continue;
+            object.crowd = !ism::read_or_tell(&faults, [&] {
                 const ism::Mask mask = read_mask(image, object);
                 const std::size_t area = mask_area(mask);
                 if (!mask.empty() && area < 2)
@@ -24,7 +25,7 @@ void leave_out_bad_masks(ism::Dataset& dataset, ism::Faults& faults) {
                         ism::join_text(ism::file_text(image.file), ", annotation ", object.id,
                                        ": mask: expected at least 2 figure pixels, got ", area));
             });
-        });
+        }
 }
 
 }  // namespace
@@ -39,7 +40,7 @@ ism::Dataset read_labels(const std::filesystem::path& path, ism::DatasetPart par
 ism::Dataset read_data(const std::filesystem::path& path, ism::DatasetPart part, bool skip_bad) {
     ism::Faults faults;
     ism::Dataset dataset = read_labels(path, part, faults);
-    if (part == ism::DatasetPart::train) leave_out_bad_masks(dataset, faults);
+    ignore_bad_masks(dataset, faults);
     if (faults.size() == 1 && !skip_bad) throw ism::Error(faults[0] + " (--skip-bad goes on without it)");
     tell_faults(faults, "labels and images", skip_bad);
     ism::expect(!dataset.images.empty(), ism::file_text(path), "a data set with images", "one without");

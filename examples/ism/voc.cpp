@@ -142,7 +142,7 @@ void add_image(const fs::path& label, std::int64_t id, const Places& places,
     std::size_t number = 0;
     for (const pugi::xml_node& node : root.children("object")) {
         ++number;
-        ism::read_or_tell(options.faults, [&] {
+        const bool read = ism::read_or_tell(options.faults, [&] {
             ism::at_place(ism::join_text(place, ", object ", number), [&] {
                 const pugi::xml_node bounds = node.child("bndbox");
                 const double left = number_of(bounds, "xmin") - 1, top = number_of(bounds, "ymin") - 1;
@@ -158,6 +158,7 @@ void add_image(const fs::path& label, std::int64_t id, const Places& places,
                 image.objects.push_back(std::move(object));
             });
         });
+        if (!read) image.incomplete = true;
     }
     dataset.images.push_back(std::move(image));
 }

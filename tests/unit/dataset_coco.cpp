@@ -141,7 +141,7 @@ TEST_CASE("An image record that makes no sense is refused with the place") {
     CHECK(read_error(with_images(R"({"id":1,"file_name":"a.png","width":20})")) ==
           at + "height: expected a whole number, got nothing");
     CHECK(read_error(with_images(R"({"id":1,"file_name":"a.png","width":-20,"height":16})")) ==
-          at + "width, height: expected 1 to 134217728 pixels, got -20x16");
+          at + "width, height: expected 1 to 134217728 pixels, sides up to 1048576, got -20x16");
     CHECK(read_error(with_images(head + "}," + head + "}")) ==
           at + "id: expected each id once, got it twice");
     CHECK(read_error(with_images(head + R"(,"depth_file_name":"d.png"})")) ==
@@ -433,6 +433,11 @@ TEST_CASE("With a list of faults a bad annotation alone is left out") {
     const Dataset dataset = ism::read_dataset(folder / "a.json", &faults);
     REQUIRE(dataset.images[0].objects.size() == 2);
     CHECK(dataset.images[0].objects[1].id == 6);
+    // What no label covers there may be what the bad ones told.
+    const ism::DatasetImage& image = dataset.images[0];
+    CHECK(image.incomplete);
+    CHECK(ism::ignored_boxes(image) ==
+          std::vector{ism::Box{0, 0, double(image.width), double(image.height)}});
     REQUIRE(faults.size() == 6);
     CHECK(faults[0].ends_with("bbox: expected a width and height above 0, got 0x4"));
     CHECK(faults[1].ends_with("annotation with id 3: image_id: expected the id of one of its images, got 9"));

@@ -149,6 +149,7 @@ TEST_CASE("Labels of labelme that make no sense are named by file and shape, or 
     ism::write_file(folder / "a.json", labelme(good + shape("dog", "line", "[[1,1],[5,1]]")));
     const ism::Dataset dataset = ism::read_any_dataset(folder.path(), {.faults = &faults});
     CHECK(dataset.images.at(0).objects.size() == 1);
+    CHECK(dataset.images[0].incomplete);
     CHECK(dataset.class_names == std::vector<std::string>{"duck"});
     CHECK(faults.size() == 1);
 

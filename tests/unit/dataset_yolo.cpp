@@ -118,6 +118,7 @@ TEST_CASE("Labels of YOLO that make no sense are named by file and line, or left
     ism::Faults faults;
     const ism::Dataset dataset = ism::read_any_dataset(folder.path(), {.faults = &faults});
     CHECK(dataset.images.at(0).objects.size() == 1);
+    CHECK(dataset.images[0].incomplete);
     CHECK(faults.size() == 1);
 }
 

@@ -79,8 +79,7 @@ TEST_CASE("ground shows no object of the class where there is room, has its aspe
                box.y + box.height <= 100 + 1e-9));
         within += box.x >= 90;
         const auto covered_for = [&](std::uint32_t asked) {
-            return ism::detail::covered_by(most.labels, 1,
-                                           ism::detail::random_ground(most, asked, 30, 20, random).box);
+            return ism::detail::covered(most, 1, ism::detail::random_ground(most, asked, 30, 20, random).box);
         };
         covered += covered_for(1) / 100, covered_anywhere += covered_for(0) / 100;
     }

@@ -163,6 +163,26 @@ TEST_CASE("a class learns nothing from an image that it is not asked about") {
     CHECK(!ism::detail::learns_from(set.images[image], 1));
 }
 
+TEST_CASE("a class learns nothing from what is to be ignored but its own objects") {
+    Lined set(6, fold_count), changed(6, fold_count);
+    constexpr std::size_t image = 4;  // of class 0
+    ism::Random random(200);
+    changed.pixels[image] = lined(0, random);
+    changed.images[image].color = changed.pixels[image];
+    const auto both = set.fitted(), both_changed = changed.fitted();
+    for (Lined* one : {&set, &changed}) {
+        const ism::RgbImage& shown = one->pixels[image];
+        one->images[image].ignored = {{0, 0, double(shown.width()), double(shown.height())}};
+    }
+    const auto own = set.fitted(), own_changed = changed.fitted();
+    const auto same = [](const auto& a, const auto& b, std::size_t c) {
+        return a.fits()[0].templates[c] == b.fits()[0].templates[c];
+    };
+    CHECK(!same(both, both_changed, 1));
+    CHECK(same(own, own_changed, 1));
+    CHECK(!same(own, own_changed, 0));
+}
+
 TEST_CASE("of many images that do not show it a class learns from an even choice") {
     constexpr std::size_t classes = 40, shown = 25;
     std::vector<ism::TrainingView> views(600);

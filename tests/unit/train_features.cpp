@@ -3,6 +3,7 @@
 //
 // Training features: what is taken from images, joined, kept and learnt from again, on small drawn pictures
 // (synthetic).
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <string>
@@ -19,6 +20,7 @@
 #include "ism/model_file/model_file.hpp"
 #include "ism/train/append_training_features.hpp"
 #include "ism/train/train.hpp"
+#include "ism/train/training_boxes.hpp"
 
 using ism::test::pattern_picture;
 using ism::test::TemporaryFolder;
@@ -83,6 +85,52 @@ TEST_CASE("mirrored images are seen for the words alone, where neither colours n
     CHECK(views({.pixels = true}).size() == 3);
     CHECK(views({.depth = true}).size() == 3);
     CHECK(views({.views = false}).empty());
+}
+
+TEST_CASE("what lies where labels say to ignore it is neither an object nor background") {
+    const ism::Box left{0, 0, 60, 160};
+    CHECK(ism::is_ignored({0, 0, 10, 10}, {left}));
+    CHECK(ism::is_ignored({55, 0, 10, 10}, {{}, left}));
+    CHECK_FALSE(ism::is_ignored({56, 0, 10, 10}, {left}));
+    CHECK_FALSE(ism::is_ignored({0, 0, 10, 10}, {}));
+
+    // The last picture shows the pattern, but nobody labelled it.
+    auto images = pictures_of(0);
+    images.push_back(pattern_picture(0, 100, 40, 7));
+    images[3].objects.clear();
+    const auto learnt = [&] { return features_of(std::span(class_names).first(1), images); };
+    const auto count = [](const ism::TrainingView& view, double left_of) {
+        return std::ranges::count_if(view.channels[0].features,
+                                     [&](const ism::Feature& f) { return f.x + 0.5 < left_of; });
+    };
+    const auto wrong = [&](const ism::TrainingFeatures& all) {
+        const auto boxes = ism::training_boxes(ism::learn(all), all, 300);
+        return std::ranges::count_if(boxes, [](const ism::TrainingBox& box) {
+            return box.view >= 6 && box.is_hypothesis() && box.overlap < 0.5;
+        });
+    };
+    const auto seen = learnt();
+    REQUIRE(seen.views.size() == 8);  // each image and its mirror image
+    CHECK(count(seen.views[6], 190) > 0);
+    CHECK(wrong(seen) > 0);
+
+    images[3].ignored = {{0, 0, 190, 160}};
+    const auto half = learnt();
+    CHECK(half.views[6].ignored == images[3].ignored);
+    CHECK(half.views[7].ignored == std::vector{ism::Box{10, 0, 190, 160}});
+    CHECK(half.views[0].ignored.empty());
+    CHECK(count(half.views[6], 190) == 0);
+    CHECK(count(half.views[6], 200) == count(seen.views[6], 200) - count(seen.views[6], 190));
+    CHECK(half.views[6].channels[0].features.size() == half.views[6].channels[0].descriptors.size());
+    CHECK(wrong(half) == 0);
+
+    // Of objects that lie there all features are learnt.
+    images[0].ignored = {{0, 0, 200, 160}};
+    CHECK(learnt().feature_count() == seen.feature_count());
+    CHECK(count(learnt().views[0], 200) > 0);
+
+    images[1].ignored = {{500, 0, 10, 10}};
+    CHECK_THROWS_WITH(ism::check(images[1], 1), Catch::Contains("a part in the image of 200x160"));
 }
 
 TEST_CASE("the limit of features leaves the strongest of each object, and the summary tells of it") {
@@ -172,7 +220,9 @@ TEST_CASE("training features that were found in another way cannot be joined") {
 
 TEST_CASE("training features are kept beside a model and learnt from again") {
     const TemporaryFolder folder;
-    const auto features = features_of(std::span(class_names).first(1), pictures_of(0));
+    auto images = pictures_of(0);
+    images[2].ignored = {{0, 0, 20.5, 30}, {150, 100, 40, 40}};
+    const auto features = features_of(std::span(class_names).first(1), images);
     const ism::Model model = ism::learn(features);
     ism::save_model(folder / "with", model, &features);
     ism::save_model(folder / "without", model);
@@ -190,6 +240,8 @@ TEST_CASE("training features are kept beside a model and learnt from again") {
         const auto &a = read.views[v], &b = features.views[v];
         CHECK((a.width == b.width && a.height == b.height && a.mirrored == b.mirrored));
         CHECK((a.first_object == b.first_object && a.end_object == b.end_object));
+        CHECK(a.ignored == b.ignored);
+        CHECK(a.ignored.size() == (v < 4 ? 0 : 2));
         REQUIRE(a.labels.size() == b.labels.size());
         CHECK(a.labels[0].box == b.labels[0].box);
         REQUIRE(a.channels[0].features.size() == b.channels[0].features.size());

@@ -117,19 +117,25 @@ struct CocoNumbers {
     std::set<std::int64_t> annotations = {};
 };
 
-inline void read_annotation(const Json& record, const std::string& file, CocoNumbers& numbers,
-                            Dataset& dataset) {
-    DatasetAnnotation annotation;
-    annotation.id = integer_member(record, "id", file + ", annotation");
-    const std::string own = join_text(file, ", annotation with id ", annotation.id);
-    if (!numbers.annotations.insert(annotation.id).second) refuse_json(own, "id", "each id once", "it twice");
+/// @brief The image that an annotation of a new id is of.
+[[nodiscard]] inline DatasetImage& annotated_image(const Json& record, const std::string& file,
+                                                   CocoNumbers& numbers, Dataset& dataset) {
+    const std::int64_t id = integer_member(record, "id", file + ", annotation");
+    const std::string own = join_text(file, ", annotation with id ", id);
+    if (!numbers.annotations.insert(id).second) refuse_json(own, "id", "each id once", "it twice");
     const std::int64_t image_id = integer_member(record, "image_id", own);
     const auto image_at = numbers.image_of.find(image_id);
     if (image_at == numbers.image_of.end())
         refuse_json(own, "image_id", "the id of one of its images", join_text(image_id));
-    DatasetImage& image = dataset.images[image_at->second];
-    const std::string place =
-        join_text(own, " of image ", image_id, " ('", one_line(image.file.string()), "')");
+    return dataset.images[image_at->second];
+}
+
+inline void read_annotation(const Json& record, const std::string& file, const CocoNumbers& numbers,
+                            DatasetImage& image) {
+    DatasetAnnotation annotation;
+    annotation.id = integer_member(record, "id", file);
+    const std::string place = join_text(file, ", annotation with id ", annotation.id, " of image ", image.id,
+                                        " ('", one_line(image.file.string()), "')");
     const std::int64_t category_id = integer_member(record, "category_id", place);
     const auto class_at = numbers.class_of.find(category_id);
     if (class_at == numbers.class_of.end())
@@ -181,7 +187,11 @@ inline void read_annotation(const Json& record, const std::string& file, CocoNum
             refuse_json(join_text(file, ", image with id ", id), "id", "each id once", "it twice");
     }
     for (const Json& record : labels)
-        read_or_tell(faults, [&] { read_annotation(record, file, numbers, dataset); });
+        read_or_tell(faults, [&] {
+            DatasetImage& image = annotated_image(record, file, numbers, dataset);
+            if (!read_or_tell(faults, [&] { read_annotation(record, file, numbers, image); }))
+                image.incomplete = true;
+        });
     return dataset;
 }
 

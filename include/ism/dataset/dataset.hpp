@@ -33,7 +33,8 @@ struct DatasetAnnotation {
     std::int64_t id = 0;            ///< its own in the data set
     std::uint32_t class_index = 0;  ///< into Dataset::class_names
     Box box;                        ///< pixels; may reach outside the image
-    bool crowd = false;             ///< a group: ignored in training and evaluation
+    bool crowd = false;  ///< a group, or hard to see: ignored in training and evaluation, and so is what
+                         ///< else lies in its box
     MaskSource segmentation = {};
     std::string instance =
         {};  ///< which thing of the class it is, where that is known: the same in each image
@@ -51,6 +52,7 @@ struct DatasetImage {
     double depth_scale = 0;                 ///< metres per unit of the depth file
     std::optional<Camera> camera = {};
     std::vector<DatasetAnnotation> objects = {};  ///< without objects it is background
+    bool incomplete = false;  ///< labels were left out: what no object covers is not known to be background
     [[nodiscard]] bool operator==(const DatasetImage&) const = default;
 };
 
@@ -62,6 +64,16 @@ struct Dataset {
     std::vector<DatasetImage> images = {};
     bool classes_listed = true;  ///< false: class_names are those that labels name; there may be more
 };
+
+/// @brief Where an image may show objects that its labels do not tell: the boxes of crowds, and all of it
+/// where it is incomplete.
+[[nodiscard]] inline std::vector<Box> ignored_boxes(const DatasetImage& image) {
+    std::vector<Box> boxes;
+    if (image.incomplete) boxes.push_back({0, 0, double(image.width), double(image.height)});
+    for (const DatasetAnnotation& object : image.objects)
+        if (object.crowd) boxes.push_back(object.box);
+    return boxes;
+}
 
 /// @brief The mask of an annotation, of the image's size; without pixels where there is none.
 /// @throws FileError, naming the image and the annotation, where the mask is of another size, damaged, or

@@ -59,7 +59,7 @@ inline void add_labelme_image(const Json& root, const std::filesystem::path& pat
     std::size_t number = 0;
     for (const Json& record : array_member(root, "shapes", file)) {
         const std::string place = join_text(file, ", shape ", number++);
-        read_or_tell(options.faults, [&] {
+        const bool read = read_or_tell(options.faults, [&] {
             const std::string& label = text_member(record, "label", place);
             DatasetAnnotation object = labelme_object(record, image, place);
             object.class_index = classes.emplace(label, std::uint32_t(classes.size())).first->second;
@@ -72,6 +72,7 @@ inline void add_labelme_image(const Json& root, const std::filesystem::path& pat
             if (first) return image.objects.push_back(std::move(object));
             join(image.objects[at->second], std::move(object), image);
         });
+        if (!read) image.incomplete = true;
     }
     dataset.images.push_back(std::move(image));
 }

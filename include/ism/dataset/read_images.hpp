@@ -15,6 +15,7 @@
 #include "ism/core/frame.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/dataset/depth_scale.hpp"
+#include "ism/dataset/labelled_image.hpp"
 #include "ism/io/images.hpp"
 #include "ism/io/paths.hpp"
 #include "ism/train/training_image.hpp"
@@ -56,32 +57,18 @@ using PictureReader = Picture (*)(const std::filesystem::path&, std::optional<Im
     return frame;
 }
 
-/// @brief Reads an image and decodes its objects' masks; crowds are left out.
+/// @brief Reads an image and decodes its objects' masks; crowds are to be ignored.
 /// @throws FileError as read_frame() and read_mask() do.
 [[nodiscard]] inline TrainingImage read_training_image(const DatasetImage& image,
                                                        PictureReader read = read_picture) {
-    TrainingImage training{.frame = read_frame(image, read), .name = image.file.string()};
-    for (const DatasetAnnotation& object : image.objects)
-        if (!object.crowd)
-            training.objects.push_back({.class_index = object.class_index,
-                                        .box = object.box,
-                                        .mask = read_mask(image, object),
-                                        .instance = object.instance,
-                                        .position_m = object.position_m});
-    return training;
+    return to_training_image(image, read_frame(image, read));
 }
 
 /// @brief The images of a data set to learn from: labels without opening a file, images when they are needed.
 /// @param dataset  has to stay as long as the set
 [[nodiscard]] inline TrainingSet training_set(const Dataset& dataset, PictureReader read = read_picture) {
     return {.size = dataset.images.size(),
-            .labels =
-                [&dataset](std::size_t i) {
-                    std::vector<ObjectLabel> labels;
-                    for (const DatasetAnnotation& object : dataset.images[i].objects)
-                        if (!object.crowd) labels.push_back({std::uint32_t(object.class_index), object.box});
-                    return labels;
-                },
+            .labels = [&dataset](std::size_t i) { return object_labels(dataset.images[i]); },
             .image = [&dataset, read](std::size_t i) { return read_training_image(dataset.images[i], read); },
             .category_ids = dataset.category_ids};
 }

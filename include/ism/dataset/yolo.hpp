@@ -80,10 +80,11 @@ namespace detail {
     const auto labels = yolo_labels(file);
     if (!std::filesystem::exists(labels)) return image;
     for_lines(read_text(labels, 1 << 30), [&](std::string_view line, std::size_t number) {
-        read_or_tell(options.faults, [&] {
+        const bool read = read_or_tell(options.faults, [&] {
             image.objects.push_back(at_place(join_text(file_text(labels), ", line ", number),
                                              [&] { return yolo_object(line, classes, image); }));
         });
+        if (!read) image.incomplete = true;
     });
     return image;
 }

@@ -102,15 +102,21 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
         file.tensors[prefix + "view_offsets"] = offsets_tensor(offsets);
     }
     std::vector<std::uint32_t> sides, classes, offsets = {0};
-    std::vector<double> boxes;
+    std::vector<double> boxes, ignored;
+    std::vector<std::uint32_t> ignored_offsets = {0};
+    const auto add_box = [](const Box& box, std::vector<double>& to) {
+        to.insert(to.end(), {box.x, box.y, box.width, box.height});
+    };
     for (const TrainingView& view : views) {
         sides.insert(sides.end(), {std::uint32_t(view.width), std::uint32_t(view.height), view.first_object,
                                    view.end_object, std::uint32_t(view.mirrored)});
         for (const auto& [class_index, box] : view.labels) {
             classes.push_back(class_index);
-            boxes.insert(boxes.end(), {box.x, box.y, box.width, box.height});
+            add_box(box, boxes);
         }
+        for (const Box& region : view.ignored) add_box(region, ignored);
         offsets.push_back(static_cast<std::uint32_t>(classes.size()));
+        ignored_offsets.push_back(static_cast<std::uint32_t>(ignored.size() / 4));
     }
     std::vector<std::uint8_t> pixels;
     std::vector<std::uint32_t> with_pixels;
@@ -124,6 +130,9 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
     file.tensors["training_labels"] = make_tensor<std::uint32_t>(classes, {classes.size()});
     file.tensors["training_boxes"] = make_tensor<double>(boxes, {classes.size(), 4});
     file.tensors["training_label_offsets"] = offsets_tensor(offsets);
+    if (ignored.empty()) return;
+    file.tensors["training_ignored"] = make_tensor<double>(ignored, {ignored.size() / 4, 4});
+    file.tensors["training_ignored_offsets"] = offsets_tensor(ignored_offsets);
 }
 
 /// @param model  of the same file
@@ -144,6 +153,15 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
     const auto offsets = offsets_from_tensor(file, "training_label_offsets", views, labels.size());
     const auto with_pixels = values<std::uint32_t>(file, "training_with_pixels", {views});
     const auto pixels = values<std::uint8_t>(file, "training_pixels", {any_length, 3});
+    std::span<const double> ignored;
+    std::vector<std::uint32_t> ignored_offsets(views + 1, 0);
+    if (file.tensors.contains("training_ignored")) {
+        ignored = values<double>(file, "training_ignored", {any_length, 4});
+        ignored_offsets = offsets_from_tensor(file, "training_ignored_offsets", views, ignored.size() / 4);
+    }
+    const auto box_at = [](std::span<const double> numbers, std::size_t i) {
+        return Box{numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2], numbers[4 * i + 3]};
+    };
     std::size_t next_pixel = 0;
     for (std::size_t v = 0; v < views; ++v) {
         const std::uint32_t* side = sides.data() + 5 * v;
@@ -152,13 +170,21 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
         expect<FileError>(side[2] <= side[3] && side[3] <= all.objects.size(),
                           lazy_text(file.source, ": objects of an image"),
                           lazy_text("up to ", all.objects.size()), lazy_text(side[2], " to ", side[3]));
-        TrainingView view{int(side[0]), int(side[1]), {}, side[2], side[3], side[4] != 0};
+        TrainingView view{.width = int(side[0]),
+                          .height = int(side[1]),
+                          .first_object = side[2],
+                          .end_object = side[3],
+                          .mirrored = side[4] != 0};
         for (std::size_t i = offsets[v]; i < offsets[v + 1]; ++i) {
-            const ObjectLabel label{labels[i],
-                                    {boxes[4 * i], boxes[4 * i + 1], boxes[4 * i + 2], boxes[4 * i + 3]}};
+            const ObjectLabel label{labels[i], box_at(boxes, i)};
             at_place(join_text(file.source, ", image ", v),
                      [&] { check(label, classes, view.width, view.height); });
             view.labels.push_back(label);
+        }
+        for (std::size_t i = ignored_offsets[v]; i < ignored_offsets[v + 1]; ++i) {
+            at_place(join_text(file.source, ", image ", v),
+                     [&] { check_labelled_box(box_at(ignored, i), view.width, view.height); });
+            view.ignored.push_back(box_at(ignored, i));
         }
         if (with_pixels[v] != 0) {
             const std::size_t count = std::size_t(view.width) * std::size_t(view.height);

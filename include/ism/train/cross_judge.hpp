@@ -94,8 +94,8 @@ struct FoldJudges {
 }
 
 /// What judges say of the boxes of an image that they have not seen, of those that overlap the best alone.
-/// What shows an object of another class is left out: that it is none of this one its rivals tell
-/// (yield_to_rivals()).
+/// What is ignored is left out, and what shows an object of another class: that it is none of this one its
+/// rivals tell (yield_to_rivals()).
 [[nodiscard]] inline std::vector<JudgedBox> judged_boxes(std::size_t image_index, const TemplateImage& image,
                                                          std::span<const TemplateScorer> scorers,
                                                          const FoldJudges& judges,
@@ -116,7 +116,8 @@ struct FoldJudges {
                 continue;
             kept.push_back(box);
             const bool right = best_iou(box.box, image.labels, c) >= 0.5;
-            if (!right && shows_another(box.box, image.labels, c)) continue;
+            if (!right && (shows_another(box.box, image.labels, c) || is_ignored(box.box, image.ignored)))
+                continue;
             const BoxColors colors = box_colors(image.color, box.box, figures[c], to_lab);
             BoxCues cues{.margin = box.score,
                          .patch_margin = judges.patches.margin(c, encoder.encode(pyramid, box.box, scratch)),

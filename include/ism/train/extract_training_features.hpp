@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "ism/core/frame_colors.hpp"
+#include "ism/core/geometry.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/order.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/shared.hpp"
@@ -38,6 +40,26 @@ namespace ism {
 
 namespace detail {
 
+/// Features without those that lie in regions to ignore and on no labelled object: they are neither of an
+/// object nor of background.
+[[nodiscard]] inline FeatureSet<float> without_ignored(FeatureSet<float> set, const TrainingView& view) {
+    if (view.ignored.empty()) return set;
+    FeatureSet<float> kept{{}, Descriptors<float>(set.descriptors.dimension())};
+    for (std::size_t i = 0; i < set.features.size(); ++i) {
+        const Feature& feature = set.features[i];
+        const double x = feature.x + 0.5, y = feature.y + 0.5;  // a pixel's corner is half beside its centre
+        const auto lies_in = [&](const Box& box) {
+            return x >= box.x && x < box.x + box.width && y >= box.y && y < box.y + box.height;
+        };
+        if (any_of(view.ignored, lies_in) &&
+            !any_of(view.labels, [&](const ObjectLabel& label) { return lies_in(label.box); }))
+            continue;
+        kept.features.push_back(feature);
+        kept.descriptors.push_back(set.descriptors.row(i));
+    }
+    return kept;
+}
+
 /// Finds the features of one training image after another.
 class TrainingExtractor {
 public:
@@ -47,11 +69,12 @@ public:
 
     /// All features of an image, with depth where it has depth.
     [[nodiscard]] TrainingView view(const TrainingImage& image) {
-        TrainingView view{.width = image.frame.gray.width(), .height = image.frame.gray.height()};
+        TrainingView view{
+            .width = image.frame.gray.width(), .height = image.frame.gray.height(), .ignored = image.ignored};
         for (const LabelledObject& object : image.objects) view.labels.push_back(object.label());
         view.end_object = static_cast<std::uint32_t>(image.objects.size());
         for (const ExtractFeatures& extract : channels_) {
-            view.channels.push_back(extract(image.frame));
+            view.channels.push_back(without_ignored(extract(image.frame), view));
             std::vector<Feature>& features = view.channels.back().features;
             if (!image.frame.depth_m.empty()) features = with_depth(std::move(features), image.frame.depth_m);
         }

@@ -165,8 +165,10 @@ public:
                 std::size_t room = mined_of_image(fit, c);
                 for (const SearchedBox& box : found[k]) {
                     if (room == 0 || box.score <= -1) break;
+                    const bool right = best_iou(box.box, shown.labels, c) >= 0.5;
+                    if (!right && is_ignored(box.box, shown.ignored)) continue;
                     taken[k].push_back(box);
-                    if (best_iou(box.box, shown.labels, c) >= 0.5) continue;
+                    if (right) continue;
                     rows.append(box.box, box.mirrored, fit.mined[c][image]);
                     --room;
                 }

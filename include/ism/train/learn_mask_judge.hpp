@@ -106,6 +106,7 @@ struct JudgedRegion {
         const auto shown =
             r < labelled ? std::optional(r) : shown_object(region, depth.masks, view.labels, options);
         if (!shown || region.mask.empty()) continue;
+        if (*shown == MaskExample::background && is_ignored(box_of(region), view.ignored)) continue;
         JudgedRegion one{.example = {.look = describe_mask(scene, view.pixels, region, shape_bin_m)},
                          .votes = region_votes(scene, hypotheses, region),
                          .outline = region_outline(*scene.surface, region)};

@@ -118,14 +118,15 @@ namespace detail {
         const Scene scene = training_scene(view, model, words, blank, pool);
         images[i] = {.color = view.pixels,
                      .labels = view.labels,
-                     .proposals = {},
+                     .ignored = view.ignored,
                      .masks = own_masks(view, model.shapes.objects),
                      .words = WordMap(scene.features, scene.matches, model.words())};
         const DetectOptions search = strongest_proposal_options();
         const auto votes = votes_of_others<Jism>(view, scene, search);
         for (const Detection& guess : find_hypotheses<EpanechnikovKernel, Jism::dimension>(
                  scene, votes, proposal_bandwidth<Jism>(), search))
-            images[i].proposals.push_back({guess.class_index, guess.box});
+            if (shows_any(guess.box, view.labels) || !is_ignored(guess.box, view.ignored))
+                images[i].proposals.push_back({guess.class_index, guess.box});
         images[i].asked = asked_proposals(images[i].proposals, votes, asked_classes, model.shapes);
         images[i].voted = VotedBoxes(votes, scene.features, model.shapes);
         for (std::uint32_t c = 0; c < classes; ++c)

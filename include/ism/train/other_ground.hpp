@@ -24,12 +24,12 @@ struct Ground {
     Box box;  ///< of the aspect of the picture that it is to fill
 };
 
-/// How much of a box objects of a class cover; more than 1 where several lie there.
-[[nodiscard]] inline double covered_by(std::span<const ObjectLabel> labels, std::uint32_t class_index,
-                                       const Box& box) {
+/// How much of a box objects of a class, or what is ignored, cover; more than 1 where several lie there.
+[[nodiscard]] inline double covered(const TemplateImage& image, std::uint32_t class_index, const Box& box) {
     double area = 0;
-    for (const ObjectLabel& label : labels)
+    for (const ObjectLabel& label : image.labels)
         if (label.class_index == class_index) area += intersection(label.box, box).area();
+    for (const Box& region : image.ignored) area += intersection(region, box).area();
     return area / box.area();
 }
 
@@ -47,8 +47,7 @@ struct Ground {
         const double scale = largest * random.uniform(least_part, 1);
         const Box box{random.uniform() * (image_width - scale * width),
                       random.uniform() * (image_height - scale * height), scale * width, scale * height};
-        const double covered = covered_by(image.labels, class_index, box);
-        if (covered < least) best.box = box, least = covered;
+        if (const double part = covered(image, class_index, box); part < least) best.box = box, least = part;
     }
     return best;
 }

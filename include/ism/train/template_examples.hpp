@@ -60,7 +60,8 @@ inline void check(const TemplateOptions& options) {
 struct TemplateImage {
     ImageView<const Rgb> color;
     std::vector<ObjectLabel> labels;
-    std::vector<ProposedBox> proposals;
+    std::vector<Box> ignored = {};                     ///< TrainingImage::ignored
+    std::vector<ProposedBox> proposals = {};           ///< in what is ignored those of objects alone
     std::vector<std::vector<ProposedBox>> asked = {};  ///< … those that each class is asked about
     std::vector<const Mask*> masks = {};               ///< of each label; none where it is not known
     WordMap words = {};                                ///< for judges that know words too …
@@ -86,6 +87,11 @@ namespace detail {
     for (const ObjectLabel& label : labels)
         if (label.class_index == class_index) best = std::max(best, iou(box, label.box));
     return best;
+}
+
+/// Whether a box is that of a labelled object.
+[[nodiscard]] inline bool shows_any(const Box& box, const std::vector<ObjectLabel>& labels) {
+    return any_of(labels, [&](const ObjectLabel& label) { return iou(box, label.box) >= 0.5; });
 }
 
 /// Whether an image shows an object of a class.
@@ -200,7 +206,9 @@ private:
             rows.append(box, true, examples.mirrored);
         }
     }
-    std::erase_if(others, [&](const Box& box) { return best_iou(box, image.labels, class_index) >= 0.4; });
+    std::erase_if(others, [&](const Box& box) {
+        return best_iou(box, image.labels, class_index) >= 0.4 || is_ignored(box, image.ignored);
+    });
     examples.negative.reserve(std::min(max_negatives, others.size()) * grid.cells() * cell_numbers);
     for (std::size_t count = 0; count < max_negatives && !others.empty(); ++count) {
         std::swap(others[random.index(others.size())], others.back());

@@ -109,8 +109,10 @@ template <ImageVoteSpace Space>
     const WordMap words(scene.features, scene.matches, scene.model.words());
     std::vector<TrainingBox> boxes;
     for (const ObjectLabel& label : view.labels) boxes.push_back(labelled_box(label, words));
-    for (const Detection& guess : find_hypotheses_of_others<Space>(view, scene, search))
-        boxes.push_back(hypothesis_box(guess.class_index, guess.box, guess.score, view.labels, words));
+    for (const Detection& guess : find_hypotheses_of_others<Space>(view, scene, search)) {
+        TrainingBox box = hypothesis_box(guess.class_index, guess.box, guess.score, view.labels, words);
+        if (box.overlap >= 0.5 || !is_ignored(guess.box, view.ignored)) boxes.push_back(std::move(box));
+    }
     return boxes;
 }
 

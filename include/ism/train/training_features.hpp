@@ -37,6 +37,7 @@ struct TrainingDepth {
 struct TrainingView {
     int width = 0, height = 0;  ///< of the image, pixels
     std::vector<ObjectLabel> labels = {};
+    std::vector<Box> ignored = {};                   ///< TrainingImage::ignored
     std::uint32_t first_object = 0, end_object = 0;  ///< those of TrainingFeatures that the image shows
     bool mirrored = false;  ///< it shows the image of the view before as a mirror shows it
     std::vector<FeatureSet<float>> channels = {};

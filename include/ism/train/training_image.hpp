@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -40,7 +41,17 @@ struct TrainingImage {
     Frame frame;
     std::vector<LabelledObject> objects = {};
     std::string name = {};  ///< for messages; a file name, say
+    /// Boxes that may show objects but teach none: crowds, and what is too hard to see. What lies in them is
+    /// no example of what a class is not, either.
+    std::vector<Box> ignored = {};
 };
+
+/// @brief Whether half of a box or more lies in one of the regions to ignore.
+[[nodiscard]] inline bool is_ignored(const Box& box, const std::vector<Box>& ignored) {
+    return std::any_of(ignored.begin(), ignored.end(), [&](const Box& region) {
+        return intersection(box, region).area() >= 0.5 * box.area();
+    });
+}
 
 /// @brief Validates a label in an image of `width` × `height` pixels.
 /// @throws Error for a class that is not below `classes`, or a box that check_labelled_box() refuses.
@@ -67,6 +78,7 @@ inline void check(const TrainingImage& image, std::size_t classes) {
             const std::size_t area = mask_area(object.mask);
             expect(area > 1, "mask", "at least 2 figure pixels", area);
         }
+        for (const Box& region : image.ignored) check_labelled_box(region, gray.width(), gray.height());
     } catch (const Error& error) {
         throw Error(join_text(image.name, ": ", error.what()));
     }
@@ -84,6 +96,7 @@ inline void check(const TrainingImage& image, std::size_t classes) {
         object.mask = mirrored(std::move(object.mask));
         if (object.position_m) object.position_m->x *= -1;
     }
+    for (Box& region : image.ignored) region.x = width - region.x - region.width;
     return image;
 }
 
