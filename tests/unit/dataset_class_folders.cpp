@@ -88,6 +88,22 @@ TEST_CASE("A folder with one folder a class is a data set, with masks beside the
     CHECK(ism::relative_to(dataset.images[1].file, dataset.source.parent_path()) == "car/1.pgm");
 }
 
+TEST_CASE("Masks are told from images whatever the case of their names") {
+    const TemporaryFolder folder;
+    write_image(folder / "car/1.pgm");
+    write_mask(folder / "car/1.PNG", {3, 4, 5, 6});
+    write_image(folder / "car/2.PGM");
+    write_mask(folder / "car/2_MASK.PNG", {1, 2, 20, 10});
+    write_cut_out(folder / "car/3.PNG", {7, 2, 8, 9});
+    const ism::Dataset dataset = ism::read_any_dataset(folder.path());
+    REQUIRE(dataset.images.size() == 3);
+    const std::vector<Box> boxes = {{3, 4, 5, 6}, {1, 2, 20, 10}, {7, 2, 8, 9}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        REQUIRE(dataset.images[i].objects.size() == 1);
+        CHECK(dataset.images[i].objects[0].box == boxes[i]);
+    }
+}
+
 TEST_CASE("Images alone have no labels, and a folder with one JSON file is COCO's") {
     const TemporaryFolder folder;
     write_image(folder / "b.pgm");

@@ -51,6 +51,8 @@ namespace detail {
 [[nodiscard]] inline bool is_json_object(const std::filesystem::path& file) {
     if (lower(file.extension().string()) != ".json") return false;
     std::ifstream stream(file);
+    std::string mark(3, '\0');  // some editors put U+FEFF before a text
+    if (!stream.read(mark.data(), 3) || mark != "\xEF\xBB\xBF") stream.clear(), stream.seekg(0);
     char first = 0;
     return stream >> first && first == '{';
 }

@@ -28,18 +28,27 @@ namespace detail {
 /// @brief The mask beside an image, or the image itself where it has transparent pixels; empty where neither.
 [[nodiscard]] inline std::filesystem::path mask_file_of(const std::filesystem::path& image) {
     const std::string stem = image.stem().string();
-    const auto named = image_of_stem(image.parent_path(), stem + "_mask");
-    if (!named.empty()) return named;
-    const auto beside = image.parent_path() / (stem + ".png");
-    if (beside != image && std::filesystem::exists(beside)) return beside;
+    for (const char* ending : {"_mask", "_MASK"})
+        if (const auto named = image_of_stem(image.parent_path(), stem + ending); !named.empty())
+            return named;
+    for (const char* ending : {".png", ".PNG"})
+        if (const auto beside = image.parent_path() / (stem + ending);
+            lower(image.extension().string()) != ".png" && std::filesystem::exists(beside))
+            return beside;
     return has_transparent_pixels(image) ? image : std::filesystem::path();
+}
+
+/// @brief Whether a file is named as a mask of its own: NAME_mask.
+[[nodiscard]] inline bool is_mask_name(const std::filesystem::path& file) {
+    return lower(file.stem().string()).ends_with("_mask");
 }
 
 /// @brief Whether a file is the mask of another one in its folder.
 [[nodiscard]] inline bool is_mask_file(const std::filesystem::path& file) {
     const std::string stem = file.stem().string();
-    if (stem.ends_with("_mask")) return true;
-    return file.extension() == ".png" && !image_of_stem(file.parent_path(), stem, ".png").empty();
+    if (is_mask_name(file)) return true;
+    return lower(file.extension().string()) == ".png" &&
+           !image_of_stem(file.parent_path(), stem, ".png").empty();
 }
 
 /// @brief An image of a class: one object, the figure of its mask, or where there is none the whole image.
@@ -109,7 +118,7 @@ namespace detail {
                 const std::string stem = file.stem().string();
                 if (detail::is_mask_file(file)) {
                     --images;
-                    if (stem.ends_with("_mask") &&
+                    if (detail::is_mask_name(file) &&
                         detail::image_of_stem(part, stem.substr(0, stem.size() - 5)).empty())
                         throw FileError(file_text(file) + ": expected an image beside this mask, got none");
                     return;

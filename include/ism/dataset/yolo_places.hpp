@@ -21,9 +21,11 @@ struct YoloPlaces {
     std::vector<std::filesystem::path> images;
 };
 
-/// @brief Calls `use` for each line that is not empty.
+/// @brief Calls `use` for each line that is not empty; U+FEFF, which some editors put first, is no part of
+/// it.
 template <class Use>
 void for_lines(std::string_view text, const Use& use) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     for (std::size_t number = 1; !text.empty(); ++number) {
         const std::size_t end = text.find('\n');
         const std::string_view line = trimmed(text.substr(0, end));
