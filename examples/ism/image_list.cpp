@@ -108,6 +108,7 @@ void ImageList::add_standard_input() {
     temporary_ = fs::temp_directory_path() /
                  ism::join_text("ism-", ism::hex_text(device(), 8), ism::hex_text(device(), 8));
     ism::write_file(temporary_, std::span<const std::uint8_t>(bytes));
+    fs::permissions(temporary_, fs::perms::owner_read | fs::perms::owner_write);  // nobody else's business
     images_.push_back({temporary_, standard_input});
 }
 

@@ -107,6 +107,7 @@ void check_output(const fs::path& file, std::span<const fs::path> inputs) {
         if (!input.empty() && fs::equivalent(file, input, failure) && !failure)
             throw ism::FileError(text + ": expected another file than an input, got one");
     if (fs::exists(file, failure) && !fs::is_regular_file(file, failure)) return;
+    ism::detail::check_replaceable(file);
     const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
     if (!fs::is_directory(folder, failure))
         throw ism::FileError(text + ": expected an existing folder to write to, got none");

@@ -53,6 +53,22 @@ TEST_CASE("A write that fails halfway leaves the old file and nothing beside it"
     CHECK(files_in(folder.path()) == 1);
 }
 
+TEST_CASE("A file is not replaced where it is write-protected, and keeps its permissions where it is not") {
+    namespace fs = std::filesystem;
+    const TemporaryFolder folder;
+    ism::write_file(folder / "a", std::string_view("old"));
+    fs::permissions(folder / "a", fs::perms::owner_read);
+    CHECK(error_message<ism::FileError>([&] {
+              ism::write_file(folder / "a", std::string_view("new"));
+          }).ends_with("/a': expected a file that may be replaced, got a write-protected one"));
+    CHECK(ism::read_text(folder / "a") == "old");
+    fs::permissions(folder / "a", fs::perms::owner_read | fs::perms::owner_write);
+    ism::write_file(folder / "a", std::string_view("new"));
+    CHECK(ism::read_text(folder / "a") == "new");
+    CHECK(fs::status(folder / "a").permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+    CHECK(files_in(folder.path()) == 1);
+}
+
 TEST_CASE("A link to a file stays a link when the file is written") {
     const TemporaryFolder folder;
     ism::write_file(folder / "a", std::string_view("old"));

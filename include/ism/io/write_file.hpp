@@ -66,6 +66,20 @@ requires(sizeof(typename Bytes::value_type) == 1) [[nodiscard]] Bytes
     return bytes;
 }
 
+/// @brief Makes sure that what a file holds may be replaced: renaming over it would not ask.
+/// @throws FileError where it is write-protected.
+inline void check_replaceable(const std::filesystem::path& path) {
+    namespace fs = std::filesystem;
+    std::error_code failure;
+    const fs::file_status status = fs::status(path, failure);
+    if (!fs::is_regular_file(status)) return;
+    constexpr fs::perms write = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+    const bool writable = (status.permissions() & write) != fs::perms::none;
+    if (!writable || !std::ofstream(path, std::ios::binary | std::ios::app))
+        throw FileError(file_text(path) +
+                        ": expected a file that may be replaced, got a write-protected one");
+}
+
 }  // namespace detail
 
 /// @brief All bytes of a file.
@@ -86,10 +100,10 @@ requires(sizeof(typename Bytes::value_type) == 1) [[nodiscard]] Bytes
 }
 
 /// @brief Writes a file atomically: `write(stream)` fills a temporary file in the same folder, which is then
-/// renamed to `path`. On failure `path` is unchanged and the temporary file is removed. What is not a regular
-/// file (a pipe, /dev/stdout) is written directly.
-/// @throws FileError where the folder is missing or cannot be written to, `path` is a folder, or the disk is
-/// full; and whatever `write` throws.
+/// renamed to `path`; a file that was there leaves it its permissions. On failure `path` is unchanged and the
+/// temporary file is removed. What is not a regular file (a pipe, /dev/stdout) is written directly.
+/// @throws FileError where the folder is missing or cannot be written to, `path` is a folder or
+/// write-protected, or the disk is full; and whatever `write` throws.
 template <std::invocable<std::ostream&> Write>
 void write_file(const std::filesystem::path& path, Write&& write) {
     namespace fs = std::filesystem;
@@ -101,6 +115,7 @@ void write_file(const std::filesystem::path& path, Write&& write) {
     if (status.type() == fs::file_type::none)  // a link to itself, say, or a folder that may not be entered
         throw FileError(text + ": expected a place to write to, got " + failure.message());
     const bool direct = fs::exists(status) && !fs::is_regular_file(status);
+    detail::check_replaceable(path);
     fs::path target = path;
     if (fs::is_regular_file(status)) {
         target = fs::canonical(path, failure);  // a link stays a link
@@ -123,6 +138,7 @@ void write_file(const std::filesystem::path& path, Write&& write) {
         stream.close();
         if (!stream) throw FileError(text + ": expected to write it whole, got " + detail::system_reason());
         if (!direct) {
+            if (fs::exists(status)) fs::permissions(temporary, status.permissions(), failure);
             fs::rename(temporary, target, failure);
             if (failure) throw FileError(text + ": expected to put it in place, got " + failure.message());
         }
