@@ -48,7 +48,7 @@ std::string spaces_text(std::size_t in_metres, std::size_t images, bool may_be_m
     if (in_metres == images) return "metric";
     if (in_metres > 0)
         return ism::join_text("metric; jism for ", images - in_metres, " images without depth and camera");
-    return may_be_metric ? "jism, for want of depth and camera: no positions, and less is found" : "jism";
+    return may_be_metric ? "jism, for want of depth or camera: no positions, and less is found" : "jism";
 }
 
 /// Whether an output is standard output.
@@ -336,8 +336,8 @@ void run_detect(const DetectCommand& command) {
     Outcome outcome = search_images(searcher, command, input, overlays);
     outcome.search_seconds = search_watch.seconds();
 
-    if (!command.report.empty()) write_report(searcher, command, input, outcome);
     write_outcome(command, outcome);
+    if (!command.report.empty()) write_report(searcher, command, input, outcome);
     if (is_told(command)) tell_nothing_found(outcome.found);
     if (command.images.empty())
         sum_up_data(command, input, outcome, watch.seconds());

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cstdio>
-#include <functional>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "data.hpp"
@@ -14,22 +18,58 @@
 
 namespace program {
 
-void run_evaluate(const EvaluateCommand& command) {
-    for (const auto& output : {command.json, command.plot})
-        if (!output.empty()) check_output(output, std::array{command.data, command.detections});
-    const ism::Dataset dataset = read_data(command.data, ism::DatasetPart::test, command.skip_bad);
-    std::vector<ism::Result> results = ism::read_results(command.detections);
-    // Where classes are only those that labels name, what was found of others is of no image's class.
-    const auto is_known = [&](const ism::Result& result) {
+namespace {
+
+/// Results of another program or of `ism detect -o`.
+/// @throws ism::FileError where the file holds the lines of `ism detect --json`, and as ism::read_results().
+std::vector<ism::Result> read_detections(const std::filesystem::path& file) {
+    if (ism::detail::trimmed(ism::read_text(file)).starts_with('{'))
+        throw ism::FileError(ism::file_text(file) +
+                             ": expected an array of results, as ism detect -o writes it, got an object; ism "
+                             "detect --json writes such lines, for other programs");
+    return ism::read_results(file);
+}
+
+/// Leaves out, and tells, results of classes that no label names, where classes are only those that labels
+/// name.
+void leave_out_unknown(const ism::Dataset& dataset, std::vector<ism::Result>& results) {
+    if (dataset.classes_listed) return;
+    std::set<std::string> unknown;
+    const std::size_t left_out = std::erase_if(results, [&](const ism::Result& result) {
         const auto& names = dataset.class_names;
         const auto& ids = dataset.category_ids;
-        if (!result.class_name.empty())
-            return std::find(names.begin(), names.end(), result.class_name) != names.end();
-        return std::find(ids.begin(), ids.end(), result.category_id) != ids.end();
-    };
-    if (!dataset.classes_listed) std::erase_if(results, std::not_fn(is_known));
+        const bool known = result.class_name.empty()
+                               ? std::find(ids.begin(), ids.end(), result.category_id) != ids.end()
+                               : std::find(names.begin(), names.end(), result.class_name) != names.end();
+        if (!known)
+            unknown.insert(result.class_name.empty() ? ism::join_text(result.category_id)
+                                                     : result.class_name);
+        return !known;
+    });
+    if (left_out == 0) return;
+    std::fprintf(stderr, "ism: note: %zu of %zu results are left out: no label names %s (labels name %s)\n",
+                 left_out, left_out + results.size(), list_text(unknown).c_str(),
+                 dataset.class_names.empty() ? "nothing" : list_text(dataset.class_names).c_str());
+}
+
+}  // namespace
+
+void run_evaluate(const EvaluateCommand& command) {
+    for (const auto& output : {command.json, command.plot})
+        if (!output.empty() && output != "-")
+            check_output(output, std::array{command.data, command.detections});
+    ism::expect(command.plot.empty() || command.plot.lexically_normal() != command.json.lexically_normal(),
+                "--plot", "another file than --json", "the same");
+    const ism::Dataset dataset = read_data(command.data, ism::DatasetPart::test, command.skip_bad);
+    std::vector<ism::Result> results = read_detections(command.detections);
+    leave_out_unknown(dataset, results);
     const auto tell = [&](const auto& evaluation) {
-        if (!command.json.empty()) ism::write_file(command.json, ism::to_json(evaluation) + "\n");
+        const std::string json = ism::to_json(evaluation) + "\n";
+        if (command.json == "-") {
+            std::fputs(json.c_str(), stdout);
+            return;
+        }
+        if (!command.json.empty()) ism::write_file(command.json, json);
         std::fputs(ism::to_table(evaluation).c_str(), stdout);
     };
     const std::string place = ism::file_text(command.detections);

@@ -252,13 +252,15 @@ void add_evaluate(CLI::App& parent, program::EvaluateCommand& command) {
     const CLI::Option* iou =
         add_number(app, "--iou", command.options.iou_threshold, {1e-9, 1, "above 0, at most 1"},
                    "least overlap of a right box by the rule iou");
-    app.add_option("--json", command.json, "figures to write, JSON");
+    app.add_option("--json", command.json, "figures to write, JSON; - for standard output");
     const CLI::Option* plot = app.add_option("--plot", command.plot, "precision-recall curves to write, SVG");
     add_skip_bad(app, command.skip_bad);
     app.callback([&command, iou, plot] {
         for (const CLI::Option* other : {iou, plot})
             ism::expect(!command.coco || other->count() == 0, "--rule coco",
                         ism::lazy_text("no ", other->get_name()), "both");
+        ism::expect(command.options.rule == ism::EvaluateOptions::Rule::iou || iou->count() == 0,
+                    "--rule uiuc", "no --iou", "both");
         program::run_evaluate(command);
     });
 }

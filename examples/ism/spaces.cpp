@@ -157,6 +157,10 @@ ism::Detections Matcher::find(const ism::Frame& frame, const SearchOptions& sear
         with_templates(search, model) ? model.template_calibration : ism::Calibration{});
 }
 
+bool knows_probabilities(const ism::Model& model) {
+    return (model.templates.empty() ? model.calibration : model.template_calibration).tells_apart();
+}
+
 bool needs_depth(std::string_view space) {
     return space == metric_space || (space != auto_space && depth_needed[space_index(space)]);
 }

@@ -11,6 +11,7 @@
 #include "learning.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"
+#include "spaces.hpp"
 
 #include "ism/dataset/read_images.hpp"
 #include "ism/model_file/model_file.hpp"
@@ -176,6 +177,10 @@ void run_train(const TrainCommand& command) {
     std::printf("templates    %s\n", model.templates.empty() ? "no" : "yes");
     if (!depth.empty()) std::printf("depth        %s\n", depth.c_str());
     std::printf("seconds      %.1f\n", watch.seconds());
+    if (!model.calibration.empty() && !knows_probabilities(model))
+        std::fprintf(stderr,
+                     "ism: note: too few objects to learn probabilities from: all that is found has the "
+                     "same; a few more of each class would tell\n");
     std::printf("\nLearnt %s. Next:\n  %s detect --model %s photo.jpg\n", lessons_text(model.shapes).c_str(),
                 command.program.c_str(), shell_word(command.model.string()).c_str());
 }

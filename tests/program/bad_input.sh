@@ -109,4 +109,22 @@ sed 's/"image_id":1,/"image_id":77,/' toys/detections-jism.json >other.json
 $line "file 'other.json': result 0: image_id: expected an image of data set 'toys/test.json', got 77" \
     "$ism" evaluate --data toys/test.json --detections other.json
 $line "array of results" "$ism" evaluate --data toys/test.json --detections toys/test.json
+"$ism" detect --model $model toys/test/test-0000.png --json lines.json 2>/dev/null
+$line "file 'lines.json': expected an array of results, as ism detect -o writes it, got an object" \
+    "$ism" evaluate --data toys/test.json --detections lines.json
+figures=(evaluate --data toys/test.json --detections toys/detections-jism.json)
+$line "--rule uiuc: expected no --iou, got both" "$ism" "${figures[@]}" --rule uiuc --iou 0.3
+$line "--plot: expected another file than --json, got the same" "$ism" "${figures[@]}" --json out --plot ./out
+"$ism" "${figures[@]}" --json - | grep -q '^  "classes": {' || fail "evaluate --json -: no JSON on standard output"
+[[ ! -e - ]] || fail "evaluate --json -: a file of this name"
+
+# What is write-protected is not replaced, and permissions stay.
+echo kept >protected.json
+chmod 400 protected.json
+$line "file 'protected.json': expected a file that may be replaced, got a write-protected one" \
+    "$ism" detect --model $model toys/test/test-0000.png -o protected.json
+[[ $(cat protected.json) == kept ]] || fail "a write-protected file was replaced"
+chmod 600 protected.json
+"$ism" detect --model $model toys/test/test-0000.png -o protected.json >/dev/null 2>&1
+[[ $(stat -c %a protected.json) == 600 ]] || fail "a private file has other permissions than before"
 $line "--iou: expected a number, above 0, at most 1, got '0'" "$ism" evaluate --data toys/test.json --detections toys/detections-jism.json --iou 0

@@ -43,7 +43,7 @@ done
 # Colours alone: found with the other model, and what is lost is said.
 sed -E 's/"depth_file_name":"[^"]*",//; s/"depth_scale":[0-9.]*,//' toys/test.json >toys/colour.json
 "$ism" detect --model model --data toys/colour.json -o colour >detect.txt
-says "space       jism, for want of depth and camera: no positions, and less is found" detect.txt
+says "space       jism, for want of depth or camera: no positions, and less is found" detect.txt
 says '"image_id":1,' colour
 ! grep -q depth_m colour || fail "depth where there is none: $(cat colour)"
 sed '0,/"depth_file_name":"[^"]*",/s///; 0,/"depth_scale":[0-9.]*,/s///' toys/test.json >toys/mixed.json
@@ -61,7 +61,7 @@ sed -E 's/"camera":\{[^}]*\},//' toys/test.json >toys/no-camera.json
 refused "test-0000.png': expected its camera, got none" \
     "$ism" detect --model model --data toys/no-camera.json -o out --space metric
 "$ism" detect --model model --data toys/no-camera.json -o no-camera >detect.txt
-says "space       jism, for want of depth and camera" detect.txt
+says "space       jism, for want of depth or camera" detect.txt
 
 # A model of colours alone; its part of the other model is the same.
 "$ism" train --data toys/train.json -o flat --no-templates --no-depth >train.txt

@@ -42,8 +42,12 @@ cp -r sets/folders/cow cows/
 mkdir cows/background
 cp sets/folders/car/car-1.jpg cows/background/
 "$ism" detect --model model-folders --data cows -o found-cows >/dev/null
-"$ism" evaluate --data cows --detections found-cows >figures.txt
+"$ism" evaluate --data cows --detections found-cows >figures.txt 2>err.txt
 says "cow " figures.txt
+sed 's/"class":"cow"/"class":"bull"/' found-cows >found-bulls
+"$ism" evaluate --data cows --detections found-bulls >/dev/null 2>err.txt
+says "results are left out: no label names bull" err.txt
+says "(labels name cow)" err.txt
 ! grep -q "^car" figures.txt || fail "a class without labels: $(cat figures.txt)"
 
 # What makes no sense is said in a line, by file and place, or left out.

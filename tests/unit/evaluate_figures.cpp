@@ -157,6 +157,10 @@ TEST_CASE("A confusion matrix counts the class of each image's most confident de
     CHECK(matrix.accuracy() == 0.5);
     CHECK_THROWS_AS(ism::confusion(truth, found, 5, 2), ism::Error);
     CHECK_THROWS_AS(ism::confusion(truth, found, 4, 1), ism::Error);
+    CHECK(ism::one_object_each(truth, 4));
+    std::vector<ism::TruthObject> crowded = truth;
+    crowded[2].ignore = true;  // an image of a crowd is of no class
+    CHECK_FALSE(ism::one_object_each(crowded, 4));
 }
 
 TEST_CASE("An evaluation of two classes counted by hand, with masks and a class without objects") {

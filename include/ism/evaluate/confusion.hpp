@@ -34,12 +34,14 @@ struct Confusion {
     }
 };
 
-/// @brief Whether each of `image_count` images holds exactly one object, so that images have a class.
+/// @brief Whether each of `image_count` images holds exactly one object and nothing to ignore, so that images
+/// have a class.
 /// @throws Error where an object's image is none of them.
 [[nodiscard]] inline bool one_object_each(std::span<const TruthObject> truth, std::size_t image_count) {
     std::vector<std::size_t> objects(image_count);
     for (const TruthObject& t : truth) {
         expect(t.image < image_count, "image of an object", lazy_text("below ", image_count), t.image);
+        if (t.ignore) return false;
         ++objects[t.image];
     }
     for (const std::size_t count : objects)
