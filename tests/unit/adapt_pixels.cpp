@@ -19,6 +19,13 @@ ism::RawPixels of(const Bytes& bytes, int width, int height, std::ptrdiff_t stri
     return {bytes.data(), width, height, stride, pixel};
 }
 
+template <class T>
+concept HasRawPixels = requires(ism::ImageView<T> image) {
+    ism::raw_pixels(image);
+};
+static_assert(HasRawPixels<const float> && HasRawPixels<std::uint8_t> && HasRawPixels<const ism::Rgb>);
+static_assert(!HasRawPixels<const double>);
+
 }  // namespace
 
 TEST_CASE("pixels of any channel order give the colours they show") {

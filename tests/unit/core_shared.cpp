@@ -7,6 +7,7 @@
 
 #include "support/catch.hpp"
 
+#include "ism/core/function.hpp"
 #include "ism/core/shared.hpp"
 
 namespace {
@@ -83,4 +84,13 @@ TEST_CASE("who holds a shared value need not know its type") {
     const Holder holder{ism::Shared<Unknown>::make()};
     const Holder copy = holder;
     CHECK(copy.value->number == 3);
+}
+
+TEST_CASE("a function that was moved away is none, and says so when it is called") {
+    ism::Function<int(int)> twice = [](int value) { return 2 * value; };
+    const ism::Function<int(int)> moved = std::move(twice);
+    CHECK(moved(4) == 8);
+    CHECK(bool(moved));
+    CHECK_FALSE(bool(twice));
+    CHECK_THROWS_WITH(twice(4), "function: expected one to call, got none");
 }

@@ -102,5 +102,5 @@ TEST_CASE("Polygons that are none are refused") {
           }) == "polygon corner: expected pixels up to 1e9, got 1, 1e+300");
     CHECK(fill({{{-1e9, -1e9}, {1e9, -1e9}, {1e9, 1e9}, {-1e9, 1e9}}}, 4, 4) == Mask(4, 4, 1));
     CHECK(error_message([] { (void)fill({}, -4, 4); }) ==
-          "mask size: expected 1 to 134217728 pixels, got -4x4");
+          "mask size: expected 1 to 134217728 pixels, sides up to 1048576, got -4x4");
 }

@@ -103,12 +103,12 @@ TEST_CASE("Run lengths that do not fit the mask are refused") {
           }) == "run lengths of a 4x3 mask: expected a sum of 12, got 8589934604");
     CHECK(error_message([] {
               (void)ism::decode_rle({0, 3, {}});
-          }) == "mask size: expected 1 to 134217728 pixels, got 0x3");
+          }) == "mask size: expected 1 to 134217728 pixels, sides up to 1048576, got 0x3");
     CHECK(error_message([] {
               (void)ism::decode_rle({1000000, 1000000, {}});
-          }) == "mask size: expected 1 to 134217728 pixels, got 1000000x1000000");
+          }) == "mask size: expected 1 to 134217728 pixels, sides up to 1048576, got 1000000x1000000");
     CHECK(error_message([] { (void)ism::encode_rle(Mask()); }) ==
-          "mask size: expected 1 to 134217728 pixels, got 0x0");
+          "mask size: expected 1 to 134217728 pixels, sides up to 1048576, got 0x0");
 }
 
 TEST_CASE("Packed run lengths that are none are refused") {

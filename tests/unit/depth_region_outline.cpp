@@ -72,6 +72,9 @@ TEST_CASE("an outline of which nothing is known has no shares") {
         return o.continued == 0 && o.hidden == 0 && o.broken == 0;
     };
     CHECK(is_nothing(seen.of({})));
+    CHECK_THROWS_WITH(seen.of({630, 470, ism::Mask(20, 20, 1)}),
+                      "region_outline: region: expected within 640x480, got 20x20 at 630, 470");
+    CHECK_THROWS_AS(seen.of({-3, 0, ism::Mask(20, 20, 1)}), ism::Error);
     CHECK(is_nothing(seen.of({5, 5, ism::Mask(20, 20, 1)})));  // no readings
     CHECK(is_nothing(seen.of(seen.picture.regions[0])));       // none around
     // The whole image has no outside.

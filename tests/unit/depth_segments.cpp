@@ -74,6 +74,42 @@ TEST_CASE("supervoxels cover the surface and tell their pixels") {
     }
 }
 
+TEST_CASE("borders of supervoxels are counted to the last row and column") {
+    ism::Surface surface{.camera = depth_scene::camera,
+                         .points_m = ism::Image<ism::Vec3f>(6, 4, {0, 0, 1}),
+                         .normals = ism::Image<ism::Vec3f>(6, 4, {0, 0, -1})};
+    ism::Supervoxels pieces{.labels = ism::Image<std::int32_t>(6, 4), .all = std::vector<ism::Supervoxel>(2)};
+    const auto border_px = [&](const auto& label, int least) {
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x < 6; ++x) pieces.labels(x, y) = label(x, y);
+        const auto edges = ism::detail::supervoxel_edges(surface, pieces, least);
+        REQUIRE(edges.size() <= 1);
+        return edges.empty() ? 0 : int(edges[0].border_px);
+    };
+    const auto sides = [](int x, int) { return x < 3 ? 1 : 2; };
+    const auto halves = [](int, int y) { return y < 2 ? 1 : 2; };
+    CHECK(border_px(sides, 1) == 4);
+    CHECK(border_px(sides, 4) == 4);
+    CHECK(border_px(sides, 5) == 0);
+    CHECK(border_px(halves, 6) == 6);
+    CHECK(border_px(halves, 7) == 0);
+    surface.points_m(3, 0).z = 2;  // a step in depth is no border
+    CHECK(border_px(sides, 1) == 3);
+}
+
+TEST_CASE("pieces meet convexly, concavely or in one plane") {
+    const float s = std::sqrt(0.5f);
+    const auto meet = [](ism::Vec3f a, ism::Vec3f b) {  // pieces to the left and right, seen from z = 0
+        return ism::detail::is_convex({.point_m = {-1, 0, 5}, .normal = a, .box = {}},
+                                      {.point_m = {1, 0, 5}, .normal = b, .box = {}}, 0.1f, 0.95f);
+    };
+    CHECK(meet({-s, 0, -s}, {s, 0, -s}));        // a ridge towards the camera
+    CHECK_FALSE(meet({s, 0, -s}, {-s, 0, -s}));  // a valley
+    CHECK(meet({0, 0, -1}, {0, 0, -1}));
+    CHECK(meet({0.15f, 0, -0.9887f}, {-0.15f, 0, -0.9887f}));  // a valley, but about parallel
+    CHECK_FALSE(meet({0.3f, 0, -0.954f}, {-0.3f, 0, -0.954f}));
+}
+
 TEST_CASE("objects on a table are segments, cut where they meet at a concave edge") {
     const auto picture = corner_scene();
     const auto found = segments_of(picture, {.max_share = 1});

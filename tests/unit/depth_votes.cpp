@@ -68,6 +68,35 @@ TEST_CASE("In a space with depth votes for objects of another size in metres wei
     CHECK(weight_of<ism::Ji3sm3>(far, model.shapes) == 1);
 }
 
+TEST_CASE("What is too light once its size is known, or behind the camera, is no vote; limits are checked") {
+    const ism::Model model = one_word();
+    const std::vector<ism::Match> matches{{0, 0, 1}};
+    const auto votes = [&](const ism::Feature& feature, const ism::VoteLimits& limits,
+                           const ism::ShapeModel& shapes) {
+        return ism::cast_votes<ism::Ji3sm1>(std::vector{feature}, matches, shapes, nullptr, limits).size() +
+               10 * ism::cast_votes<ism::Ji3sm1>(std::vector{feature}, matches, shapes, &camera, limits)
+                        .size();
+    };
+    const ism::Feature far{.x = 100, .y = 100, .scale = 4, .depth_m = 1.95f};
+    CHECK(votes(far, {.size_deviation = 0.4}, model.shapes) == 11);
+    CHECK(votes(far, {.min_weight = 0.5f, .size_deviation = 0.4}, model.shapes) == 1);  // .22 with a camera
+
+    ism::ShapeModel behind = model.shapes;
+    behind.occurrences = {};
+    behind.occurrences.push_back(
+        std::vector<ism::Occurrence>{{.x = 40, .y = 0, .scale = 8, .depth_m = 2.5f}});
+    CHECK(votes(far, {}, behind) == 0);
+
+    const double nan = std::nan("");
+    CHECK_THROWS_WITH(votes(far, {.size_deviation = 0}, model.shapes),
+                      "VoteLimits::size_deviation: expected above 0, got 0");
+    CHECK_THROWS_AS(votes(far, {.size_deviation = nan}, model.shapes), ism::Error);
+    CHECK_THROWS_AS(votes(far, {.max_size_ratio = 0.9}, model.shapes), ism::Error);
+    CHECK_THROWS_AS(votes(far, {.min_weight = -1}, model.shapes), ism::Error);
+    CHECK_THROWS_AS(votes(far, {.width = nan}, model.shapes), ism::Error);
+    CHECK_THROWS_AS(votes(far, {.min_scale = 2, .max_scale = 1}, model.shapes), ism::Error);
+}
+
 TEST_CASE("A hypothesis with depth has the size of its training objects at its distance") {
     const ism::Model model = one_word();
     const ism::Frame frame{.gray = ism::GrayImage(200, 200), .camera = camera};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -118,6 +119,17 @@ TEST_CASE("edges and flat images give no features") {
     CHECK(detect<ism::DifferenceOfGaussians>(flat).empty());
     CHECK(detect<ism::HarrisLaplace>(flat).empty());
     CHECK(detect<ism::HessianLaplace>(flat).empty());
+}
+
+TEST_CASE("what lies along an edge is refused, by the ratio of curvatures that is asked for") {
+    // A bright line that is a little brighter at every twelfth pixel.
+    ism::GrayImage line(160, 80, 0.2f);
+    for (int y = 0; y < 80; ++y)
+        for (int x = 0; x < 160; ++x)
+            line(x, y) += float((0.5 + 0.06 * std::cos(x * 2 * std::numbers::pi / 12)) *
+                                std::exp(-(y - 40.0) * (y - 40.0) / (2 * 2.5 * 2.5)));
+    CHECK(detect(line, ism::DifferenceOfGaussians{.edge_ratio = 1e6f}).size() >= 8);
+    CHECK(detect(line, ism::DifferenceOfGaussians{.edge_ratio = 4}).empty());
 }
 
 TEMPLATE_TEST_CASE("detectors give the same bits for any number of threads, within the image", "",

@@ -95,38 +95,54 @@ TEST_CASE("an image of 8 bits gives what its brightness gives") {
 
 TEST_CASE("a region gives the features of the whole image that lie in it") {
     const auto image = picture(400, 340);
-    const auto whole = ism::extract(image.view(), dog);
     ism::FeatureExtractor<ism::DifferenceOfGaussians, ism::RootSift> extractor(dog);
-    for (const ism::Region& region :
-         {ism::Region{101, 77, 150, 120}, {0, 0, 64, 340}, {300, 290, 100, 50}, {0, 0, 400, 340}}) {
-        CAPTURE(region.x, region.y, region.width, region.height);
-        const auto& part = extractor.extract(image.view(), region);
-        std::size_t inside = 0;
-        for (std::size_t i = 0; i < whole.features.size(); ++i) {
-            const ism::Feature& f = whole.features[i];
-            if (f.scale > 8 || f.x < float(region.x) || f.y < float(region.y) ||
-                f.x >= float(region.x + region.width) || f.y >= float(region.y + region.height))
-                continue;
-            ++inside;
-            const auto same = std::find_if(part.features.begin(), part.features.end(), [&](const auto& g) {
-                return std::hypot(g.x - f.x, g.y - f.y) < 1e-3f && std::fabs(g.scale / f.scale - 1) < 1e-4f;
-            });
-            REQUIRE(same != part.features.end());
-            const auto row = part.descriptors.row(std::size_t(same - part.features.begin()));
-            float sq_distance = 0;
-            for (std::size_t k = 0; k < row.size(); ++k)
-                sq_distance += std::pow(row[k] - whole.descriptors.row(i)[k], 2.0f);
-            CHECK(sq_distance < 1e-4f);
+    for (const double upsampling : {1.0, 0.7, 1.3, 2.0})
+        for (const bool oriented : {false, true}) {
+            auto settings = dog;
+            settings.options.upsampling = upsampling, settings.options.oriented = oriented;
+            const auto whole = ism::extract(image.view(), settings);
+            extractor = ism::FeatureExtractor(settings);
+            for (const ism::Region& region :
+                 {ism::Region{101, 77, 150, 120}, {0, 0, 64, 340}, {300, 290, 100, 50}, {0, 0, 400, 340}}) {
+                CAPTURE(upsampling, oriented, region.x, region.y, region.width, region.height);
+                const auto& part = extractor.extract(image.view(), region);
+                std::size_t inside = 0, found = 0;
+                for (std::size_t i = 0; i < whole.features.size(); ++i) {
+                    const ism::Feature& f = whole.features[i];
+                    if (f.scale > 8 || f.x < float(region.x) || f.y < float(region.y) ||
+                        f.x >= float(region.x + region.width) || f.y >= float(region.y + region.height))
+                        continue;
+                    ++inside;
+                    const auto same =
+                        std::find_if(part.features.begin(), part.features.end(), [&](const auto& g) {
+                            return std::hypot(g.x - f.x, g.y - f.y) < 1e-3f &&
+                                   std::fabs(g.scale / f.scale - 1) < 1e-4f &&
+                                   std::fabs(g.angle - f.angle) < 1e-3f;
+                        });
+                    if (same == part.features.end()) continue;
+                    const auto row = part.descriptors.row(std::size_t(same - part.features.begin()));
+                    float sq_distance = 0;
+                    for (std::size_t k = 0; k < row.size(); ++k)
+                        sq_distance += std::pow(row[k] - whole.descriptors.row(i)[k], 2.0f);
+                    found += sq_distance < 1e-4f;
+                }
+                CHECK(inside >= 5);
+                CHECK(found == inside);
+                for (const ism::Feature& f : part.features) {
+                    CHECK(f.x >= float(region.x) - 1e-3f);
+                    CHECK(f.y < float(region.y + region.height) + 1e-3f);
+                }
+            }
         }
-        CHECK(inside >= 5);
-        for (const ism::Feature& f : part.features) {
-            CHECK(f.x >= float(region.x));
-            CHECK(f.y < float(region.y + region.height));
-        }
-    }
+    extractor = ism::FeatureExtractor(dog);
     CHECK_THROWS_AS(extractor.extract(image.view(), ism::Region{390, 0, 20, 20}), ism::Error);
     CHECK_THROWS_WITH(extractor.extract(image.view(), ism::Region{0, 0, 20, 15}),
                       "image region size: expected at least 16x16, got 20x15");
+    // The whole image, not the region, has to be large enough when it is resized.
+    auto small = dog;
+    small.options.upsampling = 1.0 / 16;
+    extractor = ism::FeatureExtractor(small);
+    CHECK_NOTHROW(extractor.extract(image.view(), ism::Region{100, 100, 60, 60}));
 }
 
 TEST_CASE("byte descriptors are SIFT times 512") {

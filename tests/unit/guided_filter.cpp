@@ -43,6 +43,8 @@ TEST_CASE("box_mean is the mean of each window, also where it is larger than the
                     worst = std::max(worst, std::abs(mean(x, y) - plain_mean(image, x, y, radius)));
             CHECK(worst < 1e-6);
         }
+    const ism::GrayImage image = ism::test::noise(13, 9, 3);
+    CHECK(ism::box_mean(image, std::numeric_limits<int>::max()) == ism::box_mean(image, 13));
 }
 
 TEST_CASE("guided_fit fits each window by least squares and takes the mean of all that see a pixel") {

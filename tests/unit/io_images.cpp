@@ -222,7 +222,7 @@ TEST_CASE("An image that claims absurd sides is refused before its pixels are ma
     const TemporaryFolder folder;
     const std::string huge = "P5 1000000 1000000 255\nx";
     CHECK(read_error(folder, Bytes(huge.begin(), huge.end())) ==
-          "expected 1 to 134217728 pixels, got 1000000x1000000");
+          "expected 1 to 134217728 pixels, sides up to 1048576, got 1000000x1000000");
     CHECK(error_message([] { (void)ism::encode_png(RgbImage()); }) ==
-          "image to write: expected 1 to 134217728 pixels, got 0x0");
+          "image to write: expected 1 to 134217728 pixels, sides up to 1048576, got 0x0");
 }

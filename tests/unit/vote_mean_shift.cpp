@@ -444,6 +444,43 @@ TEST_CASE("the strongest modes of all labels are those of searching every label,
     CHECK(ism::strongest_modes<ism::FlatKernel, 3>({}, bandwidth, {}, 40, 0.05, 2).empty());
 }
 
+TEST_CASE("no label is left out that could have one of the strongest modes, however its votes lie") {
+    ism::Random random(31);
+    for (int round = 0; round < 60; ++round) {
+        std::vector<ism::Vote<3>> votes;
+        const std::size_t label_count = 2 + random.index(100);
+        for (std::uint32_t label = 0; label < label_count; ++label) {
+            const double spread = std::exp(random.uniform(1, 6));
+            for (std::size_t k = 1 + random.index(30); k > 0; --k) {
+                ism::Vote<3> vote{.at = {},
+                                  .scale = float(std::exp(random.uniform(-0.3, 0.3))),
+                                  .weight = float(random.uniform(0.1, 1)),
+                                  .label = label};
+                for (std::size_t axis = 0; axis < 2; ++axis)
+                    vote.at[axis] = float(500 + spread * random.uniform(-1, 1));
+                vote.at[2] = vote.scale;
+                votes.push_back(vote);
+            }
+        }
+        const auto bandwidth = mixed_bandwidth<3>(20);
+        const auto labels = ism::split_by_label(votes);
+        std::vector<ism::Mode<3>> all;
+        for (const auto& part : labels)
+            for (const auto& mode : ism::find_modes<ism::EpanechnikovKernel>(part, bandwidth))
+                all.push_back(mode);
+        std::stable_sort(all.begin(), all.end(),
+                         [](const auto& a, const auto& b) { return a.score > b.score; });
+        const std::size_t most = 1 + random.index(40);
+        const double keep = random.uniform();
+        std::vector<ism::Mode<3>> expected;
+        for (const auto& mode : all)
+            if (expected.size() < most && mode.score >= keep * all.front().score) expected.push_back(mode);
+        ism::ThreadPool pool(1);
+        CHECK(same_bits(expected, ism::strongest_modes<ism::EpanechnikovKernel>(labels, bandwidth, {}, most,
+                                                                                keep, pool)));
+    }
+}
+
 TEMPLATE_TEST_CASE("the support of a mode is what a scan of all votes of its label finds", "",
                    ism::FlatKernel, ism::EpanechnikovKernel, ism::GaussianKernel) {
     ism::Random random(12);

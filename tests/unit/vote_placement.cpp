@@ -63,6 +63,13 @@ TEST_CASE("the box around a turned object holds its figure and hardly more") {
     CHECK(object.reach[0] == Approx(50));
     CHECK(object.reach[ism::reach_directions / 4] == Approx(30));
     CHECK(ism::placed_box({{50, 40}, 0.5, 0}, object) == ism::box_around({50, 40}, 50, 30));
+    // Turned by next to nothing it is where it is upright.
+    const ism::Box upright = ism::placed_box({{50, 40}, 0.5, 0}, object),
+                   turned = ism::placed_box({{50, 40}, 0.5, 1e-9}, object);
+    CHECK(turned.x == Approx(upright.x));
+    CHECK(turned.y == Approx(upright.y));
+    CHECK(turned.width == Approx(upright.width));
+    CHECK(turned.height == Approx(upright.height));
     for (int k = -40; k <= 40; ++k) {
         const ism::Placement placed{{200, 150}, 0.7, 0.2 * k};
         double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
@@ -74,9 +81,10 @@ TEST_CASE("the box around a turned object holds its figure and hardly more") {
         }
         const ism::Box box = ism::placed_box(placed, object);
         CAPTURE(placed.angle);
-        CHECK(box.x == Approx(left).margin(2));
-        CHECK(box.y == Approx(top).margin(2));
-        CHECK(box.x + box.width == Approx(right).margin(2));
-        CHECK(box.y + box.height == Approx(bottom).margin(2));
+        // The box ends at edges of pixels, half beside their centres.
+        CHECK(box.x == Approx(left + 0.5).margin(1.75));
+        CHECK(box.y == Approx(top + 0.5).margin(1.75));
+        CHECK(box.x + box.width == Approx(right + 0.5).margin(1.75));
+        CHECK(box.y + box.height == Approx(bottom + 0.5).margin(1.75));
     }
 }

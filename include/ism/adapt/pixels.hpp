@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -207,14 +208,16 @@ inline constexpr PixelFormat format_of<float> = pixel_format::gray_float;
 template <>
 inline constexpr PixelFormat format_of<Rgb> = pixel_format::rgb8;
 
+/// @brief What a pixel of ours can be: std::uint8_t, std::uint16_t or float for grey ones, Rgb for those of 8
+/// bits in the order r, g, b.
+template <class T>
+concept PixelValue = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> ||
+    std::same_as<T, float> || std::same_as<T, Rgb>;
+
 /// @brief The pixels where they are, without a copy.
-/// @tparam T  std::uint8_t, std::uint16_t or float for grey ones, Rgb for those of 8 bits in the order r, g,
-/// b
 /// @throws Error as check(const RawPixels&) does, for another format, and where rows do not lie a whole
 /// number of pixels apart or are not aligned: these have to be copied.
-template <class T>
-requires std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint16_t> || std::is_same_v<T, float> ||
-    std::is_same_v<T, Rgb>
+template <PixelValue T>
 [[nodiscard]] ImageView<const T> view_of(const RawPixels& pixels) {
     check(pixels);
     constexpr PixelFormat expected = format_of<T>;
@@ -232,6 +235,7 @@ requires std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint16_t> || 
 
 /// @brief An image of ours as raw pixels.
 template <class T>
+requires PixelValue<std::remove_const_t<T>>
 [[nodiscard]] RawPixels raw_pixels(ImageView<T> image) {
     return {image.width() > 0 && image.height() > 0 ? &image(0, 0) : nullptr, image.width(), image.height(),
             image.stride() * std::ptrdiff_t(sizeof(T)), format_of<std::remove_const_t<T>>};

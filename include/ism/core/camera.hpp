@@ -14,9 +14,10 @@ namespace ism {
 /// @brief Stands for "no depth reading".
 inline constexpr float no_depth = std::numeric_limits<float>::quiet_NaN();
 
-/// @brief Whether a depth in metres is a reading (finite and in front of the camera).
-[[nodiscard]] inline bool is_depth(double depth_m) {
-    return std::isfinite(depth_m) && depth_m > 0;
+/// @brief Whether a depth in metres is a reading: in front of the camera, and not so near or far, a
+/// micrometre or a thousand kilometres, that it must be something else.
+[[nodiscard]] constexpr bool is_depth(double depth_m) {
+    return depth_m >= 1e-6 && depth_m <= 1e6;
 }
 
 /// @brief A pinhole camera without distortion: focal lengths and principal point, pixels.

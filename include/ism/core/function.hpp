@@ -33,10 +33,10 @@ public:
         return function;
     }
 
-    [[nodiscard]] explicit operator bool() const { return call_ != nullptr; }
+    [[nodiscard]] explicit operator bool() const { return function_.get() != nullptr; }
     /// @throws Error where there is nothing to call, and what the call throws.
     R operator()(Arguments... arguments) const {
-        expect(call_ != nullptr, "function", "one to call", "none");
+        expect(bool(*this), "function", "one to call", "none");
         return call_(function_.get(), std::forward<Arguments>(arguments)...);
     }
 

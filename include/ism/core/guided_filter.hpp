@@ -17,6 +17,7 @@ namespace ism {
 [[nodiscard]] inline GrayImage box_mean(ImageView<const float> image, int radius) {
     expect(radius >= 0, "box_mean: radius", "0 or more", radius);
     const int width = image.width(), height = image.height();
+    radius = std::min(radius, std::max(width, height));  // more is no more
     GrayImage result(width, height);
     // Running sums in double: what comes in goes out again without a trace.
     std::vector<double> columns(std::size_t(width), 0.0);

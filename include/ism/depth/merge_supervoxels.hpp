@@ -52,8 +52,11 @@ struct SupervoxelEdge {
         else
             ++known->border_px;
     };
-    for (int y = 0; y + 1 < labels.height(); ++y)
-        for (int x = 0; x + 1 < labels.width(); ++x) meet(x, y, x + 1, y), meet(x, y, x, y + 1);
+    for (int y = 0; y < labels.height(); ++y)
+        for (int x = 0; x < labels.width(); ++x) {
+            if (x + 1 < labels.width()) meet(x, y, x + 1, y);
+            if (y + 1 < labels.height()) meet(x, y, x, y + 1);
+        }
     std::vector<SupervoxelEdge> all;
     for (const auto& edges : of)
         for (const SupervoxelEdge& e : edges)

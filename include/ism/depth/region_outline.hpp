@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ism/core/error.hpp"
 #include "ism/core/region_mask.hpp"
 #include "ism/core/vec3.hpp"
 #include "ism/depth/fitted_planes.hpp"
@@ -24,9 +25,14 @@ struct RegionOutline {
 
 /// @brief Looks along the outline of a region, at pixels two steps outside; those without a reading say
 /// nothing.
+/// @throws Error for a region that does not lie within the surface.
 [[nodiscard]] inline RegionOutline region_outline(const Surface& surface, const RegionMask& region) {
     constexpr float concave = 0.1f;
     const int width = region.mask.width(), height = region.mask.height();
+    expect(region.x >= 0 && region.y >= 0 && region.x + width <= surface.width() &&
+               region.y + height <= surface.height(),
+           "region_outline: region", lazy_text("within ", surface.width(), "x", surface.height()),
+           lazy_text(width, "x", height, " at ", region.x, ", ", region.y));
     std::size_t outline = 0, continued = 0, hidden = 0, pairs = 0, broken = 0;
     const std::vector<std::uint8_t> no_row(std::size_t(width), 0);
     for (int j = 0; j < height; ++j) {

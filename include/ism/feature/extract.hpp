@@ -10,6 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/error.hpp"
+#include "ism/core/geometry.hpp"
+#include "ism/core/image.hpp"
 #include "ism/core/lists.hpp"
 #include "ism/feature/extractor.hpp"
 #include "ism/feature/keep_strongest.hpp"
@@ -94,33 +97,39 @@ private:
 
     /// The features of a region, or of the whole image.
     const Set& part(ImageView<const float> image, const std::optional<Region>& region) {
-        if (!region) return resize(image, 0, 0, {0, 0, image.width(), image.height()});
-        (void)image.region(region->x, region->y, region->width, region->height);
-        expect(region->width >= 16 && region->height >= 16, "image region size", "at least 16x16",
-               lazy_text(region->width, "x", region->height));
-        // around it what descriptors and blur reach; from such pixels on that the octaves keep their places
-        constexpr int margin = 64, grid = 32;
-        const int x0 = std::max(0, region->x - margin) / grid * grid;
-        const int y0 = std::max(0, region->y - margin) / grid * grid;
-        const int x1 = std::min(image.width(), region->x + region->width + margin);
-        const int y1 = std::min(image.height(), region->y + region->height + margin);
-        return resize(image.region(x0, y0, x1 - x0, y1 - y0), x0, y0, *region);
-    }
-
-    /// `image` is the part of the whole that begins at (x0, y0).
-    const Set& resize(ImageView<const float> image, int x0, int y0, const Region& region) {
+        if (region) {
+            (void)image.region(region->x, region->y, region->width, region->height);
+            expect(region->width >= 16 && region->height >= 16, "image region size", "at least 16x16",
+                   lazy_text(region->width, "x", region->height));
+        }
         const ExtractOptions& options = extractor_.options;
-        const bool part = image.width() != region.width || image.height() != region.height;
         ScaleSpaceOptions scale_space = options.scale_space;
-        if (options.upsampling == 1) return run(image, scale_space, x0, y0, region, part);
+        if (options.upsampling == 1) return cut(image, scale_space, region);
         GrayImage other = resized(image, options.upsampling, scale_space.input_sigma, workspace_);
         expect(other.width() >= 16 && other.height() >= 16, "image size after upsampling", "at least 16x16",
                size_text(other));
         scale_space.input_sigma =
             std::min(max_input_sigma, scale_space.input_sigma * float(std::max(1.0, options.upsampling)));
-        run(other, scale_space, x0, y0, region, part);
+        cut(other, scale_space, region);
         workspace_.reuse(std::move(other));
         return set_;
+    }
+
+    /// The same of an image that is resized already; the region is in pixels of the image as it was.
+    const Set& cut(ImageView<const float> image, const ScaleSpaceOptions& scale_space,
+                   const std::optional<Region>& region) {
+        if (!region) return run(image, scale_space, 0, 0, {});
+        const double factor = extractor_.options.upsampling;
+        const Box kept{region->x * factor, region->y * factor, region->width * factor,
+                       region->height * factor};
+        // around it what descriptors and blur reach; from such pixels on that the octaves keep their places
+        constexpr int grid = 32;
+        const double margin = 96 * std::max(1.0, factor);
+        const int x0 = int(std::max(0.0, kept.x - margin)) / grid * grid;
+        const int y0 = int(std::max(0.0, kept.y - margin)) / grid * grid;
+        const int x1 = int(std::min(double(image.width()), kept.x + kept.width + margin));
+        const int y1 = int(std::min(double(image.height()), kept.y + kept.height + margin));
+        return run(image.region(x0, y0, x1 - x0, y1 - y0), scale_space, x0, y0, kept);
     }
 
     /// The features of an image in its pixels.
@@ -136,10 +145,10 @@ private:
         }
     }
 
-    /// What extract() gives, of an image that is resized already. Where it is a part of the whole, only what
-    /// lies in the region of the whole is kept.
+    /// What extract() gives, of a resized image or the part of it that begins at (x0, y0); where there is a
+    /// box, in pixels of the whole resized image, what lies in it alone.
     const Set& run(ImageView<const float> resized_image, const ScaleSpaceOptions& scale_space, int x0, int y0,
-                   const Region& region, bool part) {
+                   const std::optional<Box>& kept) {
         const ExtractOptions& options = extractor_.options;
         const float factor = float(options.upsampling);
         std::vector<Feature>& features = set_.features;
@@ -153,12 +162,13 @@ private:
                                       workspace_);
         };
         replace(detect(resized_image, scale_space));
-        const float left = float(region.x - x0) * factor, top = float(region.y - y0) * factor;
-        const float right = left + float(region.width) * factor, bottom = top + float(region.height) * factor;
-        if (part)
+        if (kept) {
+            const auto left = float(kept->x - x0), top = float(kept->y - y0);
+            const auto right = float(left + kept->width), bottom = float(top + kept->height);
             detail::drop_if(features, [&](const Feature& f) {
                 return f.x < left || f.y < top || f.x >= right || f.y >= bottom;
             });
+        }
         limit();
         if (options.oriented) {
             replace(assign_orientations(space_, features, workspace_));
@@ -166,7 +176,7 @@ private:
         }
         describe();
         for (Feature& f : features)
-            f.x = f.x / factor + float(x0), f.y = f.y / factor + float(y0), f.scale = f.scale / factor;
+            f.x = (f.x + float(x0)) / factor, f.y = (f.y + float(y0)) / factor, f.scale = f.scale / factor;
         return set_;
     }
 

@@ -21,7 +21,13 @@ struct Feature {
     float angle = 0;           ///< orientation, radians from x towards y; 0 where upright
     float strength = 0;        ///< the detector's response, ≥ 0, larger is stronger
     float depth_m = no_depth;  ///< d_f: depth at the feature, metres; NaN = no reading
-    [[nodiscard]] bool operator==(const Feature&) const = default;
+    /// @brief Whether all is equal; two without a depth reading are alike in that.
+    [[nodiscard]] bool operator==(const Feature& other) const {
+        const bool same_depth =
+            depth_m == other.depth_m || (depth_m != depth_m && other.depth_m != other.depth_m);
+        return x == other.x && y == other.y && scale == other.scale && angle == other.angle &&
+               strength == other.strength && same_depth;
+    }
 };
 
 /// @brief Element types of descriptors.

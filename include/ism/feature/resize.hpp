@@ -10,6 +10,7 @@
 #include "ism/core/image.hpp"
 #include "ism/feature/blur.hpp"
 #include "ism/feature/range.hpp"
+#include "ism/feature/scale_space_options.hpp"
 #include "ism/feature/workspace.hpp"
 
 namespace ism {
@@ -20,10 +21,12 @@ inline constexpr double max_resized_pixels = 1 << 27;            ///< of an imag
 /// @brief The image at `factor` times its size, by bilinear interpolation. Pixel (x, y) of the result shows
 /// the place (x / factor, y / factor) of `image`; its sides are ⌊(side − 1) · factor⌋ + 1. Before it is made
 /// smaller the image, taken to have the blur `input_sigma` (pixels), is blurred until the result has it.
-/// @throws Error where `factor` or the size of the result is out of range or the image has no pixels.
+/// @throws Error where `factor`, `input_sigma` or the size of the result is out of range or the image has no
+/// pixels.
 [[nodiscard]] inline GrayImage resized(ImageView<const float> image, double factor, float input_sigma,
                                        Workspace& workspace) {
     detail::expect_range("resize factor", factor, min_resize, max_resize);
+    detail::expect_range("input_sigma (pixels)", input_sigma, 0.0f, max_input_sigma);
     expect(!image.empty(), "image size", "at least 1x1", size_text(image));
     const double width = std::floor((image.width() - 1) * factor) + 1;
     const double height = std::floor((image.height() - 1) * factor) + 1;

@@ -18,7 +18,7 @@ inline constexpr std::int64_t max_image_pixels = std::int64_t(1) << 27;
 inline constexpr std::int64_t max_image_side = std::int64_t(1) << 20;
 
 /// @brief The sizes allowed, for messages.
-inline constexpr std::string_view image_size_limits = "1 to 134217728 pixels";
+inline constexpr std::string_view image_size_limits = "1 to 134217728 pixels, sides up to 1048576";
 
 /// @brief Whether a file may hold an image of this size.
 [[nodiscard]] constexpr bool is_image_size(std::int64_t width, std::int64_t height) {

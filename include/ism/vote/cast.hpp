@@ -41,6 +41,19 @@ struct VoteLimits {
     double max_size_ratio = 1.5;
 };
 
+/// @brief Validates limits.
+/// @throws Error for one out of range.
+inline void check(const VoteLimits& limits) {
+    expect(limits.width >= 0 && limits.height >= 0, "VoteLimits::width, height", "0 or more",
+           lazy_text(limits.width, ", ", limits.height));
+    expect(limits.min_scale >= 0 && limits.max_scale >= limits.min_scale, "VoteLimits::min_scale, max_scale",
+           "0 or more, and rising", lazy_text(limits.min_scale, ", ", limits.max_scale));
+    expect(limits.min_weight >= 0, "VoteLimits::min_weight", "0 or more", limits.min_weight);
+    expect(limits.size_deviation > 0 && std::isfinite(limits.size_deviation), "VoteLimits::size_deviation",
+           "above 0", limits.size_deviation);
+    expect(limits.max_size_ratio >= 1, "VoteLimits::max_size_ratio", "1 or more", limits.max_size_ratio);
+}
+
 namespace detail {
 
 /// Rising labels; votes of one label stay in their order. Labels are mostly numbers of classes, which can be
@@ -92,13 +105,15 @@ template <std::predicate<const Occurrence&> LeftOut>
 /// @param camera  of the image; null = not known
 /// @param frames  of the features; only for a space with poses
 /// @return the votes by label, then feature, word and occurrence
-/// @throws Error in a space with poses without a camera or frames, or for a model that knows no frames.
+/// @throws Error for limits out of range, and in a space with poses without a camera or frames, or for a
+/// model that knows no frames.
 template <VoteSpaceType Space>
 [[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(
     const std::vector<Feature>& features, const std::vector<Match>& matches, const ShapeModel& shapes,
     const Camera* camera = nullptr, const VoteLimits& limits = {},
     const std::vector<std::optional<LocalFrame>>& frames = {}) {
     using V = Vote<Space::dimension>;
+    check(limits);
     if constexpr (Space::needs_pose) {
         expect(!shapes.frames.empty() || shapes.occurrences.values().empty(),
                "votes of a space with poses: model", "one of learn_metric()", "one without local frames");
@@ -129,10 +144,11 @@ template <VoteSpaceType Space>
                 source.pose = *pose;
                 source.placement = placement(*pose, source.object, *camera);
             } else if constexpr (Space::needs_depth) {
+                if (!is_depth(centre_depth_m(feature, occurrence))) continue;  // behind the camera
                 weight *= static_cast<float>(
                     detail::size_likelihood(source.placement, centre_depth_m(feature, occurrence),
                                             source.object, camera, limits.size_deviation));
-                if (!(weight > 0)) continue;
+                if (!(weight > 0) || weight < limits.min_weight) continue;
             }
             const auto& [centre, scale, angle] = source.placement;
             if (scale < limits.min_scale || scale > limits.max_scale) continue;

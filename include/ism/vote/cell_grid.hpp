@@ -26,7 +26,8 @@ public:
         : low_(low) {
         for (std::size_t k = 0; k < 3; ++k)
             count_[k] = 1 + static_cast<std::size_t>(std::min((high[k] - low[k]) / wanted[k], double(most)));
-        while (count_[0] * count_[1] * count_[2] > std::max<std::size_t>(1, most)) {
+        const auto cells = [&] { return double(count_[0]) * double(count_[1]) * double(count_[2]); };
+        while (cells() > double(std::max<std::size_t>(1, most))) {
             std::size_t& largest = *std::max_element(count_.begin(), count_.end());
             largest = (largest + 1) / 2;
         }

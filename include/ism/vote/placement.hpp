@@ -89,7 +89,8 @@ namespace detail {
     };
     constexpr double quarter = std::numbers::pi / 2;
     const double right = reach(0), down = reach(quarter), left = reach(2 * quarter), up = reach(3 * quarter);
-    return {placement.centre.x - left, placement.centre.y - up, left + right, up + down};
+    // A pixel's coordinates are those of its centre: its edges lie half beside.
+    return {placement.centre.x + 0.5 - left, placement.centre.y + 0.5 - up, left + right, up + down};
 }
 
 }  // namespace ism
