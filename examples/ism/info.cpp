@@ -49,10 +49,9 @@ void run_info(const InfoCommand& command) {
     for (const ism::Model& rgbd : model.rgbd)
         std::printf("depth           %zu words, %zu of them on objects, %zu regions\n", rgbd.words(),
                     rgbd.shapes.frames.size(), rgbd.mask_judge.examples.size());
-    std::printf("probabilities   %s\n", model.calibration.empty() ? "no"
-                                        : knows_probabilities(model)
-                                            ? "yes"
-                                            : "the same for all, for want of objects to learn them from");
+    std::printf("probabilities   %s\n", model.calibration.empty()     ? "no"
+                                        : learnt_probabilities(model) ? "yes"
+                                                                      : "typical ones, for want of objects");
     std::printf("reference size  %g px\n", ism::reference_size_px);
     for (const ism::Channel& channel : model.channels) {
         const ism::FeatureSettings& settings = channel.features;

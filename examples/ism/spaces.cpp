@@ -157,8 +157,11 @@ ism::Detections Matcher::find(const ism::Frame& frame, const SearchOptions& sear
         with_templates(search, model) ? model.template_calibration : ism::Calibration{});
 }
 
-bool knows_probabilities(const ism::Model& model) {
-    return (model.templates.empty() ? model.calibration : model.template_calibration).tells_apart();
+bool learnt_probabilities(const ism::Model& model) {
+    if (model.templates.empty()) return model.calibration.tells_apart();
+    const auto& curves = model.template_calibration.curves;
+    return std::any_of(curves.begin(), curves.end(),
+                       [](const auto& curve) { return !(curve == ism::typical_template_curve); });
 }
 
 bool needs_depth(std::string_view space) {

@@ -33,8 +33,8 @@ private:
     ism::FrameMatcher matcher_;
 };
 
-/// Whether a model learnt how probable scores make an object; of an object or two a class it cannot.
-[[nodiscard]] bool knows_probabilities(const ism::Model& model);
+/// Whether a model learnt how probable scores make an object; of one object a class it cannot.
+[[nodiscard]] bool learnt_probabilities(const ism::Model& model);
 
 /// Whether a vote space uses depth.
 [[nodiscard]] bool needs_depth(std::string_view space);

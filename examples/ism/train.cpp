@@ -177,10 +177,11 @@ void run_train(const TrainCommand& command) {
     std::printf("templates    %s\n", model.templates.empty() ? "no" : "yes");
     if (!depth.empty()) std::printf("depth        %s\n", depth.c_str());
     std::printf("seconds      %.1f\n", watch.seconds());
-    if (!model.calibration.empty() && !knows_probabilities(model))
-        std::fprintf(stderr,
-                     "ism: note: too few objects to learn probabilities from: all that is found has the "
-                     "same; a few more of each class would tell\n");
+    if (!model.calibration.empty() && !learnt_probabilities(model))
+        std::fprintf(
+            stderr,
+            "ism: note: with one object a class nothing tells how sure to be of what is found: "
+            "probabilities are what is typical, and two or three more objects make them much better\n");
     std::printf("\nLearnt %s. Next:\n  %s detect --model %s photo.jpg\n", lessons_text(model.shapes).c_str(),
                 command.program.c_str(), shell_word(command.model.string()).c_str());
 }

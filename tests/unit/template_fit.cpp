@@ -141,6 +141,12 @@ TEST_CASE("the classifier of patches that is learnt is the mean of those of all 
     judges[1].patches.weights = {{3, 0}, {-3, 6}}, judges[1].patches.bias = {-1, 8};
     const ism::PatchClassifier mean = ism::detail::mean_patches(judges);
     CHECK(mean.weights == std::vector<std::vector<float>>{{2, 1}, {0, 5}});
+    judges.push_back(judges[1]);
+    judges[2].patches.weights = {{2, 7}, {}}, judges[2].patches.bias = {5, 0};  // knows the first class alone
+    const auto three = ism::detail::mean_patches(judges);
+    CHECK(std::abs(three.weights[0][1] - 3) < 1e-5f);
+    CHECK(three.weights[1] == std::vector<float>{0, 5});
+    CHECK((std::abs(three.bias[0] - 3) < 1e-5f && three.bias[1] == 7));
     CHECK(mean.bias == std::vector<float>{2, 7});
 }
 
@@ -204,13 +210,27 @@ TEST_CASE("of many images that do not show it a class learns from an even choice
           std::vector<bool>(200, false));
 }
 
-TEST_CASE("no templates are fitted without a fold that shows all there is of a class") {
+TEST_CASE("without a fold that shows all there is of a class the other classes are fitted alone") {
     Lined set(12, fold_count);
     for (std::size_t i = 0; i < set.images.size(); ++i)
         if (set.fold_of[i] != 2) set.images[i].labels[0].class_index = 0;
     const auto fitter = set.fitted();
-    REQUIRE(fitter.fits().size() == fold_count);
-    for (const auto& fit : fitter.fits()) CHECK(fit.fold != 2);
+    REQUIRE(fitter.fits().size() == 1 + fold_count);
+    const auto is_blank = [](const ism::BoxTemplate& one) {
+        return one.bias == 0 && std::ranges::all_of(one.weights, [](float w) { return w == 0; });
+    };
+    const std::vector<ism::BoxTemplate> means = fitter.mean_templates();
+    double bias[2] = {};
+    for (const auto& fit : fitter.fits()) {
+        CHECK(fit.known == std::vector<bool>{true, fit.fold != 2});
+        CHECK_FALSE(is_blank(fit.templates[0]));
+        CHECK(is_blank(fit.templates[1]) == (fit.fold == 2));
+        for (std::size_t c = 0; c < 2; ++c) bias[c] += double(fit.templates[c].bias);
+    }
+    CHECK(double(means[0].bias) == Approx(bias[0] / 4));
+    CHECK(double(means[1].bias) == Approx(bias[1] / 3));
+    for (std::uint32_t i = 0; i < set.images.size(); ++i) set.images[i].labels[0].class_index = i != 0;
+    CHECK(set.fitted().fits()[1].known == std::vector<bool>{false, true});
 }
 
 TEST_CASE("a search moves a box that is off to the object, and leaves one that no move betters") {
@@ -281,8 +301,22 @@ TEST_CASE("a template asks at the places proposed, with its aspect, and at the b
     CHECK(better({}).empty());
 }
 
-TEST_CASE("images of a class take turns in folds") {
-    std::vector<ism::TemplateImage> images(9);
-    for (std::size_t i = 0; i < 8; ++i) images[i].labels = {{std::uint32_t(i % 2), shown_box}};
-    CHECK(ism::detail::folds_of(images, 2, 3) == std::vector<std::size_t>{0, 0, 1, 1, 2, 2, 0, 0, 0});
+TEST_CASE("images of a class are shared out among folds, those of a rare one first") {
+    using Labels = std::vector<std::vector<ism::ObjectLabel>>;
+    const auto shown = [](std::initializer_list<std::uint32_t> classes) {
+        std::vector<ism::ObjectLabel> labels;
+        for (const std::uint32_t c : classes) labels.push_back({c, shown_box});
+        return labels;
+    };
+    // One object each: they take turns, and so do images without.
+    Labels one(9);
+    for (std::size_t i = 0; i < 8; ++i) one[i] = shown({std::uint32_t(i % 2)});
+    CHECK(ism::detail::balanced_folds(one, 2, 3) == std::vector<std::size_t>{0, 0, 1, 1, 2, 2, 0, 0, 0});
+    // The second class is in every third image, beside the first.
+    Labels beside;
+    for (std::size_t i = 0; i < 9; ++i) beside.push_back(i % 3 == 0 ? shown({0, 1, 1}) : shown({0}));
+    const auto folds = ism::detail::balanced_folds(beside, 2, 3);
+    CHECK((folds[0] == 0 && folds[3] == 1 && folds[6] == 2));
+    for (std::size_t f = 0; f < 3; ++f) CHECK(std::count(folds.begin(), folds.end(), f) == 3);
+    CHECK(ism::detail::balanced_folds({}, 2, 3).empty());
 }

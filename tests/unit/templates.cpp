@@ -277,6 +277,23 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
     CHECK(learnt(with(-1, -0.5)) == known);
 }
 
+TEST_CASE("where no box tells right from wrong, cues and curves are typical ones") {
+    using ism::detail::JudgedBox;
+    const std::vector<JudgedBox> wrong(5);
+    for (const std::vector<JudgedBox>& judged : {std::vector<JudgedBox>(), wrong}) {
+        const ism::CueWeights weights = ism::detail::fit_cue_weights(judged, 2);
+        CHECK(weights.patches == 1);
+        CHECK(weights.words == 0);
+        CHECK(weights.votes > 0);
+        const ism::Calibration calibration = ism::detail::calibrated(judged, weights, 2);
+        CHECK(calibration.curves == std::vector(2, ism::typical_template_curve));
+        CHECK(calibration.tells_apart());
+    }
+    std::vector<JudgedBox> both = wrong;
+    both[0].right = true;
+    CHECK_FALSE(ism::detail::calibrated(both, {}, 1).curves[0] == ism::typical_template_curve);
+}
+
 TEST_CASE("colours are learnt of classes whose objects have masks, and kept when exemplars are") {
     ism::Model model = model_without_templates();
     for (const ism::TrainingView& view : pattern_features().views)

@@ -130,3 +130,18 @@ TEST_CASE("a region shows an object where mask and box overlap enough, else back
     CHECK(shown({100, 100, ism::Mask(10, 3, 1)}) == ism::MaskExample::background);
     CHECK(ism::detail::shown_object(masks[0], {}, {}, options) == ism::MaskExample::background);
 }
+
+TEST_CASE("images of one thing are one group, of things of two classes that are named alike they are not") {
+    ism::TrainingFeatures features{.class_names = {"cup", "tin"}};
+    const auto add = [&](std::uint32_t class_index, const char* instance) {
+        ism::TrainingView view{.labels = {{class_index, {0, 0, 9, 9}}}};
+        view.depth = ism::TrainingDepth{.instances = {instance}};
+        features.views.push_back(view);
+    };
+    add(0, "1"), add(1, "1"), add(0, "2"), add(0, "1"), add(1, "");
+    const ism::DepthViews grouped = ism::depth_views(features);
+    REQUIRE(grouped.views.size() == 5);
+    CHECK((grouped.views[0] == &features.views[0] && grouped.views[1] == &features.views[3]));
+    CHECK(grouped.group_first == std::vector<std::size_t>{0, 0, 2, 3, 4});
+    CHECK(grouped.group_end == std::vector<std::size_t>{2, 2, 3, 4, 5});
+}

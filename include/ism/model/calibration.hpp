@@ -38,4 +38,8 @@ struct Calibration {
     }
 };
 
+/// @brief The curve of templates that could not be tried on objects which they had not seen, since each class
+/// has but one: about the mean of what models of two to five objects a class learn.
+inline constexpr Calibration::Curve typical_template_curve{.slope = 2, .offset = 3};
+
 }  // namespace ism

@@ -18,6 +18,8 @@ struct PatchClassifier {
     std::vector<float> bias = {};                  ///< of each class
 
     [[nodiscard]] bool empty() const { return bias.empty(); }
+    /// @brief Whether it has learnt a class.
+    [[nodiscard]] bool knows(std::size_t class_index) const { return !weights[class_index].empty(); }
     /// @brief Above 0: rather an object of the class than none.
     /// @param vector  of FisherEncoder::encode() with the mixture
     [[nodiscard]] double margin(std::size_t class_index, std::span<const float> vector) const {

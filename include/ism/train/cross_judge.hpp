@@ -22,6 +22,7 @@
 #include "ism/hog/search_box.hpp"
 #include "ism/model/box_classifier.hpp"
 #include "ism/model/box_cues.hpp"
+#include "ism/model/calibration.hpp"
 #include "ism/model/figure_colors.hpp"
 #include "ism/model/patch_classifier.hpp"
 #include "ism/train/fit_box_classifier.hpp"
@@ -42,17 +43,6 @@ struct JudgedBox {
     BoxCues cues = {};
     bool right = false;
 };
-
-/// Which of so many folds each image belongs to: images of a class take turns, those without objects too.
-[[nodiscard]] inline std::vector<std::size_t> folds_of(std::span<const TemplateImage> images,
-                                                       std::size_t classes, std::size_t folds) {
-    std::vector<std::size_t> seen(classes + 1, 0), fold_of;
-    for (const TemplateImage& image : images) {
-        const std::size_t kind = image.labels.empty() ? classes : image.labels.front().class_index;
-        fold_of.push_back(seen[kind]++ % folds);
-    }
-    return fold_of;
-}
 
 /// Whether a box is that of an object of another class.
 [[nodiscard]] inline bool shows_another(const Box& box, const std::vector<ObjectLabel>& labels,
@@ -79,13 +69,16 @@ struct FoldJudges {
     std::vector<FigureColors> colors = {};  ///< of each class
 };
 
-/// The mean of the judges' classifiers of patches, as of templates (TemplateFitter::mean_templates()).
+/// The mean of the judges' classifiers of patches, as of templates (TemplateFitter::mean_templates()), for
+/// each class of those that know it.
 [[nodiscard]] inline PatchClassifier mean_patches(std::span<const FoldJudges> judges) {
     PatchClassifier mean = judges[0].patches;
-    const float share = 1 / float(judges.size());
     for (std::size_t c = 0; c < mean.bias.size(); ++c) {
+        const auto knows = [c](const FoldJudges& judge) { return judge.patches.knows(c); };
+        const float share = 1 / float(std::count_if(judges.begin(), judges.end(), knows));
         std::fill(mean.weights[c].begin(), mean.weights[c].end(), 0.0f), mean.bias[c] = 0;
         for (const FoldJudges& judge : judges) {
+            if (!knows(judge)) continue;
             add_share(share, judge.patches.weights[c], mean.weights[c]);
             mean.bias[c] += share * judge.patches.bias[c];
         }
@@ -107,6 +100,7 @@ struct FoldJudges {
     const LabTable to_lab;
     CellScratch scratch;
     for (std::uint32_t c = 0; c < scorers.size(); ++c) {
+        if (!judges.patches.knows(c)) continue;  // the fold shows all there is of the class
         std::vector<SearchedBox> kept;
         for (const SearchedBox& box :
              propose_boxes(scorers[c], c, pyramid, image.asked[c], searched_boxes, pool)) {
@@ -145,9 +139,18 @@ struct FoldJudges {
     return examples;
 }
 
-/// What scores are worth by a curve of each class.
+/// Whether there are boxes of both kinds.
+[[nodiscard]] inline bool tells_right_from_wrong(std::span<const JudgedBox> judged) {
+    const auto right =
+        std::count_if(judged.begin(), judged.end(), [](const JudgedBox& b) { return b.right; });
+    return right > 0 && std::size_t(right) < judged.size();
+}
+
+/// What scores are worth by a curve of each class; a typical one where boxes tell nothing of it.
 [[nodiscard]] inline Calibration calibrated(std::span<const JudgedBox> judged, const CueWeights& weights,
                                             std::size_t classes) {
+    if (!tells_right_from_wrong(judged))
+        return {std::vector<Calibration::Curve>(classes, typical_template_curve)};
     std::vector<std::vector<ScoredExample>> of_class;
     for (std::uint32_t c = 0; c < classes; ++c) of_class.push_back(scored(judged, weights, c));
     return calibration_of(of_class, scored(judged, weights));
@@ -162,6 +165,10 @@ struct FoldJudges {
     constexpr std::pair<double CueWeights::*, double> most[] = {{&CueWeights::patches, 1.2},
                                                                 {&CueWeights::words, 0.1}};
     CueWeights best{.votes = 0.3, .share = 0.25, .contrast = 1.5, .colors = 0.5, .size = 0.2};
+    if (!tells_right_from_wrong(judged)) {
+        best.patches = 1;  // as models of few objects learn
+        return best;
+    }
     double least_loss = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 3; ++round)
         for (const auto& [weight, limit] : most)

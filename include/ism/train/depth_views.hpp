@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ism/core/error.hpp"
@@ -23,9 +25,9 @@ struct DepthViews {
 };
 
 /// @brief The training images that keep depth. Those that show an object of the same instance
-/// (LabelledObject::instance) are one group, directly or by others between; without instances each image is
-/// one. What is learnt of an image without itself is learnt without its group: an object that was seen from
-/// the next side would be too easy.
+/// of a class (LabelledObject::instance) are one group, directly or by others between; without instances each
+/// image is one. What is learnt of an image without itself is learnt without its group: an object that was
+/// seen from the next side would be too easy.
 /// @throws Error where there is no such image.
 [[nodiscard]] inline DepthViews depth_views(const TrainingFeatures& features) {
     std::vector<const TrainingView*> found;
@@ -38,11 +40,13 @@ struct DepthViews {
         while (group[i] != i) i = group[i];
         return i;
     };
-    std::map<std::string, std::size_t> first_with;
+    std::map<std::pair<std::uint32_t, std::string>, std::size_t> first_with;  // of a class and an instance
     for (std::size_t i = 0; i < found.size(); ++i)
-        for (const std::string& instance : found[i]->depth->instances) {
+        for (std::size_t k = 0; k < found[i]->depth->instances.size(); ++k) {
+            const std::string& instance = found[i]->depth->instances[k];
             if (instance.empty()) continue;
-            const auto [known, is_new] = first_with.emplace(instance, i);
+            const auto [known, is_new] =
+                first_with.emplace(std::pair(found[i]->labels[k].class_index, instance), i);
             const std::size_t a = root(known->second), b = root(i);
             group[std::max(a, b)] = std::min(a, b);
         }

@@ -71,7 +71,8 @@ template <RowNumber T>
 struct TemplateFit {
     static constexpr std::size_t no_fold = std::numeric_limits<std::size_t>::max();
 
-    std::size_t fold = no_fold;  ///< whose images they do not see
+    std::size_t fold = no_fold;    ///< whose images they do not see
+    std::vector<bool> known = {};  ///< of each class: whether other images show it
     std::vector<BoxTemplate> templates = {};
     std::vector<TemplateScorer> scorers = {};           ///< of these templates
     std::vector<std::vector<std::uint8_t>> sides = {};  ///< of each class: which objects are shown mirrored
@@ -111,12 +112,16 @@ public:
                           .taken = std::vector<std::vector<Box>>(images.size())};
         for (std::uint32_t c = 0; c < classes; ++c)
             blank.templates.push_back(blank_template(images, c, options.cells));
+        blank.known.assign(classes, true);
         fits_.push_back(blank);
-        for (blank.fold = 0; blank.fold < folds; ++blank.fold)
-            if (sees_all_classes(blank)) fits_.push_back(blank);
+        for (blank.fold = 0; blank.fold < folds; ++blank.fold) {
+            blank.known = seen_classes(blank);
+            if (std::find(blank.known.begin(), blank.known.end(), true) != blank.known.end())
+                fits_.push_back(blank);
+        }
     }
 
-    /// The first sees all images. The others see all but a fold, where these show all classes.
+    /// The first sees all images. The others see all but a fold, and know the classes that these show.
     [[nodiscard]] const std::vector<TemplateFit>& fits() const { return fits_; }
     [[nodiscard]] bool sees(const TemplateFit& fit, std::size_t image) const {
         return fold_of_[image] != fit.fold;
@@ -156,14 +161,19 @@ public:
             for (const ObjectLabel& label : shown.labels)
                 for (int k = 0; k < 4 && label.class_index == c; ++k)
                     proposals.push_back({c, jittered(label.box, random, 0.4, 0.3, 0.3)});
+            std::vector<std::size_t> knowing;  // places in `chosen`
             std::vector<const TemplateScorer*> scorers;
-            for (const std::size_t f : chosen) scorers.push_back(&fits_[f].scorers[c]);
+            for (std::size_t k = 0; k < chosen.size(); ++k)
+                if (fits_[chosen[k]].known[c])
+                    knowing.push_back(k), scorers.push_back(&fits_[chosen[k]].scorers[c]);
+            if (scorers.empty()) continue;
             const auto found = propose_boxes(scorers, c, pyramid, proposals, searched_boxes, pool);
             CellRows rows(pyramid, fits_[0].templates[c].grid);
-            for (std::size_t k = 0; k < chosen.size(); ++k) {
+            for (std::size_t n = 0; n < knowing.size(); ++n) {
+                const std::size_t k = knowing[n];
                 TemplateFit& fit = fits_[chosen[k]];
                 std::size_t room = mined_of_image(fit, c);
-                for (const SearchedBox& box : found[k]) {
+                for (const SearchedBox& box : found[n]) {
                     if (room == 0 || box.score <= -1) break;
                     const bool right = best_iou(box.box, shown.labels, c) >= 0.5;
                     if (!right && is_ignored(box.box, shown.ignored)) continue;
@@ -191,17 +201,19 @@ public:
             fits_[f].scorers = {fits_[f].templates.begin(), fits_[f].templates.end()};
     }
 
-    /// The mean of the templates of all fits (bagging: Breiman 1996): much of what each has from the chance
-    /// of its own examples cancels. Some come out mirrored: each is added on the side that is more like the
-    /// first.
+    /// The mean of the templates of all fits that know the class (bagging: Breiman 1996): much of what each
+    /// has from the chance of its own examples cancels. Some come out mirrored: each is added on the side
+    /// that is more like the first.
     [[nodiscard]] std::vector<BoxTemplate> mean_templates() const {
         std::vector<BoxTemplate> means = fits_[0].templates;
-        const float share = 1 / float(fits_.size());
         for (std::size_t c = 0; c < means.size(); ++c) {
+            const auto knows = [c](const TemplateFit& fit) { return bool(fit.known[c]); };
+            const float share = 1 / float(std::count_if(fits_.begin(), fits_.end(), knows));
             const BoxTemplate& first = fits_[0].templates[c];
             BoxTemplate& mean = means[c];
             std::fill(mean.weights.begin(), mean.weights.end(), 0.0f), mean.bias = 0;
             for (const TemplateFit& fit : fits_) {
+                if (!knows(fit)) continue;
                 const std::vector<float>& plain = fit.templates[c].weights;
                 const std::vector<float> mirrored = mirrored_cells(plain, first.grid);
                 const bool turned = ahead_mirrored(first.weights, plain.data(), mirrored.data()) > 0;
@@ -221,18 +233,20 @@ private:
         const std::size_t share = fit.fold == TemplateFit::no_fold ? 1 : fits_.size() - 1;
         return std::clamp<std::size_t>(max_rows_ / learnt_from_[class_index] / share, 2, 6);
     }
-    [[nodiscard]] bool sees_all_classes(const TemplateFit& fit) const {
+    [[nodiscard]] std::vector<bool> seen_classes(const TemplateFit& fit) const {
         std::vector<bool> seen(examples_.size(), false);
         for (std::size_t i = 0; i < images_.size(); ++i)
             for (const ObjectLabel& label : images_[i].labels)
                 if (sees(fit, i)) seen[label.class_index] = true;
-        return std::find(seen.begin(), seen.end(), false) == seen.end();
+        return seen;
     }
     /// Fits the weights of a template, and then turns each object to the side that fits better.
     void fit_class(TemplateFit& fit, std::size_t class_index) const {
         BoxTemplate& one = fit.templates[class_index];
         std::vector<std::uint8_t>& side = fit.sides[class_index];
         const std::size_t dimension = one.grid.cells() * cell_numbers;
+        one.weights.assign(dimension, 0.0f);
+        if (!fit.known[class_index]) return;
         std::vector<const ExampleNumber*> plain, mirrored, negative;
         for (std::size_t i = 0; i < images_.size(); ++i) {
             if (!sees(fit, i)) continue;

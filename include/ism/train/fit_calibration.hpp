@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ism/model/calibration.hpp"
+#include "ism/train/balanced_folds.hpp"
 #include "ism/train/fit_box_classifier.hpp"
 #include "ism/train/train_options.hpp"
 #include "ism/train/training_boxes.hpp"
@@ -81,17 +82,18 @@ struct ScoredExample {
     return calibration;
 }
 
-/// @brief Which half of the training images each view belongs to, 0 or 1: images of a class take turns,
-/// background images too, and a mirror image goes with its image.
+/// @brief Which half of the training images each view belongs to, 0 or 1: each half has its share of the
+/// images of each class and of background, and a mirror image goes with its image.
 [[nodiscard]] inline std::vector<std::uint8_t> halves_of_views(const TrainingFeatures& features) {
-    std::vector<std::uint32_t> seen(features.class_names.size() + 1, 0);
-    std::vector<std::uint8_t> half_of_view;
+    std::vector<std::vector<ObjectLabel>> labels;  // of each image
+    std::vector<std::size_t> image_of;             // of each view
     for (const TrainingView& view : features.views) {
-        const std::size_t kind =
-            view.labels.empty() ? features.class_names.size() : view.labels.front().class_index;
-        const bool with_last = view.mirrored && !half_of_view.empty();
-        half_of_view.push_back(with_last ? half_of_view.back() : std::uint8_t(seen[kind]++ % 2));
+        if (!view.mirrored || labels.empty()) labels.push_back(view.labels);
+        image_of.push_back(labels.size() - 1);
     }
+    const auto half = detail::balanced_folds(labels, features.class_names.size(), 2);
+    std::vector<std::uint8_t> half_of_view;
+    for (const std::size_t image : image_of) half_of_view.push_back(std::uint8_t(half[image]));
     return half_of_view;
 }
 

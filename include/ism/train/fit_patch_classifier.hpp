@@ -127,7 +127,8 @@ private:
     int copies_ = 0;  // of each object
 };
 
-/// Those that show the class against those that do not; what overlaps an object in part is left out.
+/// Those that show the class against those that do not; what overlaps an object in part is left out. Where
+/// none shows it the class stays unknown.
 inline void fit_patch_weights(PatchClassifier& classifier, std::uint32_t class_index,
                               std::span<const PatchRows* const> parts) {
     constexpr double same_iou = 0.7, other_iou = 0.35;
@@ -142,10 +143,11 @@ inline void fit_patch_weights(PatchClassifier& classifier, std::uint32_t class_i
         }
     const auto positives = double(std::count(positive.begin(), positive.end(), std::uint8_t(1))),
                negatives = std::max(1.0, double(positive.size()) - positives);
+    if (positives == 0) return;
     // both kinds cost alike together
     LinearClassifier fit = fit_linear_svm(rows, PatchMixture::vector_numbers, positive,
                                           {.cost = (positives + negatives) / (2 * negatives),
-                                           .positive_cost = negatives / std::max(1.0, positives),
+                                           .positive_cost = negatives / positives,
                                            .bias_scale = 1});
     classifier.weights[class_index] = std::move(fit.weights);
     classifier.bias[class_index] = float(fit.bias);

@@ -19,6 +19,7 @@
 #include "ism/detect/proposals.hpp"
 #include "ism/model/box_cues.hpp"
 #include "ism/model/figure_colors.hpp"
+#include "ism/train/balanced_folds.hpp"
 #include "ism/train/cross_judge.hpp"
 #include "ism/train/describe_object.hpp"
 #include "ism/train/fit_box_classifier.hpp"
@@ -154,7 +155,9 @@ struct FittedJudges {
     // often as with three. Four gain no more and take a tenth longer.
     constexpr std::size_t folds = 3;
     const std::size_t classes = model.shapes.class_names.size();
-    const std::vector<std::size_t> fold_of = folds_of(images, classes, folds);
+    std::vector<std::vector<ObjectLabel>> labels;
+    for (const TemplateImage& image : images) labels.push_back(image.labels);
+    const std::vector<std::size_t> fold_of = balanced_folds(labels, classes, folds);
     TemplateFitter fitter(images, fold_of, folds, classes, options);
     const std::vector<TemplateFit>& fits = fitter.fits();
     PyramidWorkers workers(threads);
