@@ -7,12 +7,12 @@ cmake_minimum_required(VERSION 3.22)
 #   header | headers of ours it may reach | libraries it may reach (of those below)
 set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "iostream" "memory" "regex")
 set(budget
-    "ism.hpp                    | 150 | "
+    "ism.hpp                    | 151 | "
     "vote/axes.hpp              |  17 | "
     "detect/detect.hpp          | 105 | "
     "train/train_options.hpp    |   7 | "
     "train/training_image.hpp   |  10 | "
-    "train/train.hpp            | 138 | "
+    "train/train.hpp            | 139 | "
     "evaluate/evaluate.hpp      |  10 | "
     "core/frame.hpp             |   8 | "
     "feature/hessian_laplace.hpp|  30 | "

@@ -6,11 +6,9 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "ism/core/frame.hpp"
 #include "ism/dataset/dataset.hpp"
