@@ -458,6 +458,22 @@ TEST_CASE("objects that were labelled by boxes get masks from their colours and 
         CHECK(again.shapes.objects[i].mask == model.shapes.objects[i].mask);
 }
 
+TEST_CASE("a mask that fills its box is a mask") {
+    std::vector<ism::TrainingImage> images;
+    for (std::uint64_t seed = 21; seed <= 24; ++seed) images.push_back(animal_picture(seed));
+    for (std::size_t i = 0; i < 4; ++i) {
+        ism::LabelledObject& object = images[i].objects[0];
+        object.mask = i < 2 ? ism::object_mask({.box = object.box}, 240, 160) : ism::Mask();
+    }
+    const ism::TrainingFeatures features = features_of(images);
+    const ism::Model model = ism::masks_from_boxes(unlearnt(features), features, 1);
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(features.views[i].labels[0].masked == (i < 2));
+        CHECK((model.shapes.objects[i].mask == features.objects[i].mask) == (i < 2));
+    }
+    CHECK(ism::learn_exemplars(unlearnt(features), features).exemplars.size() == 2);
+}
+
 TEST_CASE("crops borrow masks, but where most are crops all keep their boxes") {
     ism::TrainingImage image = animal_picture(31), crop = image;
     image.objects = {{.class_index = 0, .box = {60, 40, 110, 80}}};

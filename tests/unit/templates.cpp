@@ -296,15 +296,17 @@ TEST_CASE("where no box tells right from wrong, cues and curves are typical ones
 
 TEST_CASE("colours are learnt of classes whose objects have masks, and kept when exemplars are") {
     ism::Model model = model_without_templates();
-    for (const ism::TrainingView& view : pattern_features().views)
-        for (const ism::ObjectLabel& label : view.labels)
+    ism::TrainingFeatures features = pattern_features();
+    for (ism::TrainingView& view : features.views)
+        for (ism::ObjectLabel& label : view.labels)
             if (label.class_index == 1) {  // as if it had been labelled by its box
+                label.masked = false;
                 const ism::Mask box = ism::object_mask({.box = label.box}, view.width, view.height);
                 model.shapes.objects[view.first_object].mask = ism::describe_object(label, box, {}).mask;
             }
-    const ism::Model lending = ism::learn_exemplars(model, pattern_features());
+    const ism::Model lending = ism::learn_exemplars(model, features);
     REQUIRE(lending.figure_colors.size() == 2);
-    model = ism::learn_templates(lending, pattern_features(), small, 1);
+    model = ism::learn_templates(lending, features, small, 1);
     REQUIRE(model.figure_colors.size() == 2);
     CHECK(model.figure_colors_of(0).size() == ism::figure_color_bins);
     CHECK(model.figure_colors_of(1).empty());
@@ -314,7 +316,7 @@ TEST_CASE("colours are learnt of classes whose objects have masks, and kept when
     REQUIRE(model.typical_sizes.size() == 2);
     for (std::uint32_t c = 0; c < 2; ++c) {
         std::vector<double> areas, parts;
-        for (const ism::TrainingView& view : pattern_features().views)
+        for (const ism::TrainingView& view : features.views)
             for (const ism::ObjectLabel& label : view.labels)
                 if (label.class_index == c) {
                     areas.push_back(label.box.area());
@@ -331,7 +333,7 @@ TEST_CASE("colours are learnt of classes whose objects have masks, and kept when
     REQUIRE(model.placings.size() == 2);
     CHECK(model.placings[0] != ism::Placing{});
     CHECK(model.placings[1] == ism::Placing{});
-    const ism::Model two = ism::learn_templates(lending, pattern_features(), small, 2);
+    const ism::Model two = ism::learn_templates(lending, features, small, 2);
     CHECK(two.typical_masks == model.typical_masks);
     CHECK(two.placings == model.placings);
     CHECK(model_with_templates().placings.empty());

@@ -244,6 +244,7 @@ TEST_CASE("training features are kept beside a model and learnt from again") {
         CHECK(a.ignored.size() == (v < 4 ? 0 : 2));
         REQUIRE(a.labels.size() == b.labels.size());
         CHECK(a.labels[0].box == b.labels[0].box);
+        CHECK((a.labels[0].masked && b.labels[0].masked));
         REQUIRE(a.channels[0].features.size() == b.channels[0].features.size());
         const auto now = a.channels[0].descriptors.values(), before = b.channels[0].descriptors.values();
         for (std::size_t i = 0; i < now.size(); ++i) REQUIRE(std::abs(now[i] - before[i]) < 1.0f / 255);

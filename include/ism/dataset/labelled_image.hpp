@@ -3,6 +3,7 @@
 #pragma once
 
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "ism/core/frame.hpp"
@@ -15,7 +16,10 @@ namespace ism {
 [[nodiscard]] inline std::vector<ObjectLabel> object_labels(const DatasetImage& image) {
     std::vector<ObjectLabel> labels;
     for (const DatasetAnnotation& object : image.objects)
-        if (!object.crowd) labels.push_back({object.class_index, object.box});
+        if (!object.crowd)
+            labels.push_back({.class_index = object.class_index,
+                              .box = object.box,
+                              .masked = !std::holds_alternative<std::monostate>(object.segmentation)});
     return labels;
 }
 

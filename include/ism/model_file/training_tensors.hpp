@@ -102,6 +102,7 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
         file.tensors[prefix + "view_offsets"] = offsets_tensor(offsets);
     }
     std::vector<std::uint32_t> sides, classes, offsets = {0};
+    std::vector<std::uint8_t> masked;
     std::vector<double> boxes, ignored;
     std::vector<std::uint32_t> ignored_offsets = {0};
     const auto add_box = [](const Box& box, std::vector<double>& to) {
@@ -110,9 +111,10 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
     for (const TrainingView& view : views) {
         sides.insert(sides.end(), {std::uint32_t(view.width), std::uint32_t(view.height), view.first_object,
                                    view.end_object, std::uint32_t(view.mirrored)});
-        for (const auto& [class_index, box] : view.labels) {
-            classes.push_back(class_index);
-            add_box(box, boxes);
+        for (const ObjectLabel& label : view.labels) {
+            classes.push_back(label.class_index);
+            masked.push_back(label.masked);
+            add_box(label.box, boxes);
         }
         for (const Box& region : view.ignored) add_box(region, ignored);
         offsets.push_back(static_cast<std::uint32_t>(classes.size()));
@@ -129,6 +131,7 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
     file.tensors["training_views"] = make_tensor<std::uint32_t>(sides, {views.size(), 5});
     file.tensors["training_labels"] = make_tensor<std::uint32_t>(classes, {classes.size()});
     file.tensors["training_boxes"] = make_tensor<double>(boxes, {classes.size(), 4});
+    file.tensors["training_masked"] = make_tensor<std::uint8_t>(masked, {masked.size()});
     file.tensors["training_label_offsets"] = offsets_tensor(offsets);
     if (ignored.empty()) return;
     file.tensors["training_ignored"] = make_tensor<double>(ignored, {ignored.size() / 4, 4});
@@ -150,6 +153,9 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
     const std::size_t views = sides.size() / 5;
     const auto labels = values<std::uint32_t>(file, "training_labels", {any_length});
     const auto boxes = values<double>(file, "training_boxes", {labels.size(), 4});
+    const bool tells_masks = file.tensors.contains("training_masked");
+    const auto masked = tells_masks ? values<std::uint8_t>(file, "training_masked", {labels.size()})
+                                    : std::span<const std::uint8_t>();
     const auto offsets = offsets_from_tensor(file, "training_label_offsets", views, labels.size());
     const auto with_pixels = values<std::uint32_t>(file, "training_with_pixels", {views});
     const auto pixels = values<std::uint8_t>(file, "training_pixels", {any_length, 3});
@@ -176,7 +182,7 @@ inline void training_to_tensors(const TrainingFeatures& all, TensorFile& file) {
                           .end_object = side[3],
                           .mirrored = side[4] != 0};
         for (std::size_t i = offsets[v]; i < offsets[v + 1]; ++i) {
-            const ObjectLabel label{labels[i], box_at(boxes, i)};
+            const ObjectLabel label{labels[i], box_at(boxes, i), tells_masks && masked[i] != 0};
             at_place(join_text(file.source, ", image ", v),
                      [&] { check(label, classes, view.width, view.height); });
             view.labels.push_back(label);

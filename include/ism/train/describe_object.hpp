@@ -73,11 +73,13 @@ namespace ism {
     return result;
 }
 
-/// @brief Whether a training object has no mask but its whole box, as of a label without one.
+/// @brief Whether a training object has a mask, labelled or cut out since (masks_from_boxes()), and not just
+/// its whole box in place of one.
 /// @param width, height  of the image
-[[nodiscard]] inline bool is_whole_box(const TrainingObject& object, const ObjectLabel& label, int width,
-                                       int height) {
-    return describe_object(label, object_mask({.box = label.box}, width, height), {}).mask == object.mask;
+[[nodiscard]] inline bool has_mask(const TrainingObject& object, const ObjectLabel& label, int width,
+                                   int height) {
+    return label.masked ||
+           describe_object(label, object_mask({.box = label.box}, width, height), {}).mask != object.mask;
 }
 
 /// @brief Median depth of an object's figure, metres; no_depth without readings.

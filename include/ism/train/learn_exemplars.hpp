@@ -40,7 +40,7 @@ namespace ism {
         pixels = true;
         for (std::uint32_t object = view.first_object; object < view.end_object; ++object) {
             const ObjectLabel& label = view.labels[object - view.first_object];
-            if (!is_whole_box(model.shapes.objects[object], label, view.width, view.height))
+            if (has_mask(model.shapes.objects[object], label, view.width, view.height))
                 of_class[label.class_index].push_back({object, &view, label});
         }
     }

@@ -44,8 +44,8 @@ namespace detail {
     std::vector<const Mask*> masks;
     for (std::size_t i = 0; i < view.labels.size(); ++i) {
         const TrainingObject& object = objects[view.first_object + i];
-        const bool whole = is_whole_box(object, view.labels[i], view.width, view.height);
-        masks.push_back(whole ? nullptr : &object.mask);
+        const bool known = has_mask(object, view.labels[i], view.width, view.height);
+        masks.push_back(known ? &object.mask : nullptr);
     }
     return masks;
 }

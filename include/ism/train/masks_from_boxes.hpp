@@ -58,7 +58,7 @@ struct BoxedObject {
     for (const TrainingView& view : features.views)
         for (std::uint32_t i = view.first_object; i < view.end_object && !view.pixels.empty(); ++i) {
             const ObjectLabel& label = view.labels[i - view.first_object];
-            const bool labelled = !is_whole_box(objects[i], label, view.width, view.height),
+            const bool labelled = has_mask(objects[i], label, view.width, view.height),
                        lends = labelled || shows_ground(label.box, view.width, view.height);
             boxed.push_back({&view, i, label.class_index, label.box, labelled, lends});
             ++count[label.class_index], able[label.class_index] += lends;

@@ -21,6 +21,7 @@ namespace ism {
 struct ObjectLabel {
     std::uint32_t class_index = 0;  ///< into the class names given to train()
     Box box;                        ///< pixels
+    bool masked = false;            ///< labelled with a mask, too
 };
 
 /// @brief One labelled object of a training image.
@@ -33,7 +34,7 @@ struct LabelledObject {
     /// depth of its mask. Votes for positions in space tell the place that they were taught.
     std::optional<Point3> position_m = {};
 
-    [[nodiscard]] ObjectLabel label() const { return {class_index, box}; }
+    [[nodiscard]] ObjectLabel label() const { return {class_index, box, !mask.empty()}; }
 };
 
 /// @brief An image to learn from. Without objects it is background.
