@@ -12,6 +12,7 @@
 
 #include "input.hpp"
 #include "pictures.hpp"
+#include "spaces.hpp"
 
 #include "ism/evaluate/table.hpp"
 #include "ism/hog/hog_pyramid.hpp"
@@ -330,7 +331,9 @@ ism::Report model_report(const ism::Model& model, const std::string& title, cons
         {"depth", model.rgbd.empty() ? "not learnt"
                                      : ism::join_text(model.rgbd[0].words(), " words, ",
                                                       model.rgbd[0].mask_judge.examples.size(), " regions")},
-        {"probabilities", model.calibration.empty() ? "none" : "learnt"}};
+        {"probabilities", model.calibration.empty()     ? "none"
+                          : learnt_probabilities(model) ? "learnt"
+                                                        : "typical ones"}};
     ism::ReportTable table{
         .header = {"class", "objects", "images", "size px", "occurrences", "words of its own"}};
     for (std::size_t c = 0; c < classes; ++c) {
@@ -357,7 +360,14 @@ ism::Report model_report(const ism::Model& model, const std::string& title, cons
     trained.parts.push_back(std::move(table));
     report.sections.push_back(std::move(trained));
     std::optional<Sources> sources;
-    if (data) sources.emplace(*data);
+    if (data) {
+        sources.emplace(*data);
+        const auto is_there = [&](const ism::TrainingObject& object) {
+            return sources->find(object).first != nullptr;
+        };
+        ism::expect(std::any_of(shapes.objects.begin(), shapes.objects.end(), is_there), "info --data",
+                    "the data set that the model was learnt from", "one that shows none of its objects");
+    }
     for (std::size_t c = 0; c < std::min(classes, most_classes); ++c)
         report.sections.push_back(class_section(model, c, counts, sources ? &*sources : nullptr));
     ism::ReportSection settings{.title = "Settings", .folded = true};

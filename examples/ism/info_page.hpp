@@ -11,6 +11,7 @@ namespace program {
 /// The page on a model: what it was learnt from, and of each class its template, training objects and most
 /// telling words.
 /// @param data  what it was learnt from, to show words as they were seen; nothing without
+/// @throws ism::Error where it shows no object of the model.
 [[nodiscard]] ism::Report model_report(const ism::Model& model, const std::string& title,
                                        const ism::Dataset* data);
 

@@ -49,6 +49,8 @@ $line "'none': expected a file to read" "$ism" detect --model none --data toys/t
 head -c 5000 $model >cut
 $line "file 'cut'" "$ism" detect --model cut --data toys/test.json -o out
 $line "file 'toys/test.json'" "$ism" info toys/test.json
+$line "info --data: expected the data set that the model was learnt from, got one that shows none of its objects" \
+    "$ism" info $model --report out --data toys/test.json
 sed 's/"name":"duck"/"name":"goose"/' toys/test.json >toys/goose.json
 $line "class 'duck' of the model: expected a class of 'toys/goose.json' (car, mug, goose, robot)" \
     "$ism" detect --model $model --data toys/goose.json -o out

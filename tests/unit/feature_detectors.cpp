@@ -88,6 +88,18 @@ TEMPLATE_TEST_CASE("blob detectors find blobs at their place and scale", "", ism
             }
 }
 
+TEST_CASE("a small blob on a large one is a feature beside it") {
+    const auto features =
+        detect<ism::HessianLaplace>(blobs(161, 160, {{80, 80, 12, 0.3}, {80.3, 80.2, 2, -0.4}}));
+    const auto has_scale = [&](float least, float most) {
+        return std::any_of(features.begin(), features.end(), [&](const ism::Feature& f) {
+            return std::hypot(f.x - 80, f.y - 80) < 2 && f.scale > least && f.scale < most;
+        });
+    };
+    CHECK(has_scale(1.5f, 2.6f));
+    CHECK(has_scale(9, 15));
+}
+
 TEST_CASE("Harris-Laplace finds the four corners of a square") {
     for (const double half : {6.0, 9.3, 14.0}) {
         const double x = 50.4, y = 47.8;
