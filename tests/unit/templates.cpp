@@ -279,17 +279,17 @@ TEST_CASE("cues join templates at the weights that tell right from wrong best") 
 
 TEST_CASE("where no box tells right from wrong, cues and curves are typical ones") {
     using ism::detail::JudgedBox;
-    const std::vector<JudgedBox> wrong(5);
-    for (const std::vector<JudgedBox>& judged : {std::vector<JudgedBox>(), wrong}) {
+    const std::vector<JudgedBox> none_right(5);
+    for (const std::vector<JudgedBox>& judged : {std::vector<JudgedBox>(), none_right}) {
         const ism::CueWeights weights = ism::detail::fit_cue_weights(judged, 2);
         CHECK(weights.patches == 1);
         CHECK(weights.words == 0);
         CHECK(weights.votes > 0);
-        const ism::Calibration calibration = ism::detail::calibrated(judged, weights, 2);
-        CHECK(calibration.curves == std::vector(2, ism::typical_template_curve));
-        CHECK(calibration.tells_apart());
+        const ism::Calibration curves = ism::detail::calibrated(judged, weights, 2);
+        CHECK(curves.curves == std::vector(2, ism::typical_template_curve));
+        CHECK(curves.tells_apart());
     }
-    std::vector<JudgedBox> both = wrong;
+    std::vector<JudgedBox> both = none_right;
     both[0].right = true;
     CHECK_FALSE(ism::detail::calibrated(both, {}, 1).curves[0] == ism::typical_template_curve);
 }
