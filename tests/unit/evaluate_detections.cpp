@@ -128,6 +128,15 @@ TEST_CASE("Detections are measured as the results made of them") {
     crowded.images[0].objects[0].crowd = true;
     CHECK(ism::evaluate(crowded, found).classes[0].objects == 1);
     CHECK(ism::evaluate(crowded, found).classes[0].detections == 2);  // those that meet the crowd are ignored
+    ism::Dataset incomplete = set;
+    for (ism::DatasetImage& image : incomplete.images) image.incomplete = true;
+    const ism::Evaluation partly = ism::evaluate(incomplete, found);
+    CHECK(partly.classes[0].objects == 2);
+    CHECK(partly.classes[0].detections == 2);  // what is no labelled object may be one of those left out
+    CHECK(partly.classes[0].true_positives == 2);
+    const ism::CocoEvaluation by_coco = ism::evaluate_coco(incomplete, results);
+    CHECK(by_coco.classes[0].objects == 2);
+    CHECK(by_coco.classes[0].figures.ap50 == 1);
 }
 
 TEST_CASE("Detections that are not those of the data set are refused") {

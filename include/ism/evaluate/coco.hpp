@@ -41,7 +41,8 @@ template <class Measure>
     return measure(IouRule{options.iou_threshold});
 }
 
-/// The objects of a data set; where[i] is the image and the annotation of object i.
+/// The objects of a data set, and what is to be ignored; where[i] is the image and the annotation of object
+/// i, the number past the last one where an incomplete image as a whole is to be ignored.
 struct DatasetTruth {
     std::vector<TruthObject> objects;
     std::vector<std::pair<std::size_t, std::size_t>> where;
@@ -55,6 +56,13 @@ struct DatasetTruth {
             truth.objects.push_back({i, object.class_index, object.box, object.crowd});
             truth.where.emplace_back(i, a);
         }
+    for (std::size_t i = 0; i < dataset.images.size(); ++i) {
+        const DatasetImage& image = dataset.images[i];
+        for (std::uint32_t c = 0; image.incomplete && c < dataset.class_names.size(); ++c) {
+            truth.objects.push_back({i, c, {0, 0, double(image.width), double(image.height)}, true});
+            truth.where.emplace_back(i, image.objects.size());
+        }
+    }
     return truth;
 }
 
@@ -93,8 +101,8 @@ struct DatasetTruth {
 }  // namespace detail
 
 /// @brief Measures results against a data set; a result is of the class that it names, else of its category
-/// id. Crowds are ignored, masks are compared where both have one,
-/// two at a time in memory.
+/// id. Crowds are ignored, and in incomplete images what is no labelled object; masks are compared where both
+/// have one, two at a time in memory.
 /// @throws Error, naming the result, for an image or category number that the data set lacks, a mask of
 /// another size than the image, or a score or box that is not finite.
 template <MatchRule R>
