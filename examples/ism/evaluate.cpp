@@ -12,6 +12,7 @@
 #include "data.hpp"
 #include "input.hpp"
 
+#include "ism/dataset/any_dataset.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"
@@ -23,11 +24,14 @@ namespace {
 /// Results of another program or of `ism detect -o`.
 /// @throws ism::FileError where the file holds the lines of `ism detect --json`, and as ism::read_results().
 std::vector<ism::Result> read_detections(const std::filesystem::path& file) {
-    if (ism::detail::trimmed(ism::read_text(file)).starts_with('{'))
+    try {
+        return ism::read_results(file);
+    } catch (const ism::FileError&) {
+        if (!std::filesystem::is_regular_file(file) || !ism::detail::begins_as_object(file)) throw;
         throw ism::FileError(ism::file_text(file) +
                              ": expected an array of results, as ism detect -o writes it, got an object; ism "
                              "detect --json writes such lines, for other programs");
-    return ism::read_results(file);
+    }
 }
 
 /// Leaves out, and tells, results of classes that no label names, where classes are only those that labels
@@ -55,6 +59,7 @@ void leave_out_unknown(const ism::Dataset& dataset, std::vector<ism::Result>& re
 }  // namespace
 
 void run_evaluate(const EvaluateCommand& command) {
+    ism::expect(command.plot != "-", "--plot", "a file", "standard output");
     for (const auto& output : {command.json, command.plot})
         if (!output.empty() && output != "-")
             check_output(output, std::array{command.data, command.detections});

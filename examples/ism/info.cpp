@@ -51,7 +51,7 @@ void run_info(const InfoCommand& command) {
                     rgbd.shapes.frames.size(), rgbd.mask_judge.examples.size());
     std::printf("probabilities   %s\n", model.calibration.empty()     ? "no"
                                         : learnt_probabilities(model) ? "yes"
-                                                                      : "typical ones, for want of objects");
+                                                                      : "not learnt, for want of objects");
     std::printf("reference size  %g px\n", ism::reference_size_px);
     for (const ism::Channel& channel : model.channels) {
         const ism::FeatureSettings& settings = channel.features;

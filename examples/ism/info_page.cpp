@@ -333,7 +333,7 @@ ism::Report model_report(const ism::Model& model, const std::string& title, cons
                                                       model.rgbd[0].mask_judge.examples.size(), " regions")},
         {"probabilities", model.calibration.empty()     ? "none"
                           : learnt_probabilities(model) ? "learnt"
-                                                        : "typical ones"}};
+                                                        : "not learnt"}};
     ism::ReportTable table{
         .header = {"class", "objects", "images", "size px", "occurrences", "words of its own"}};
     for (std::size_t c = 0; c < classes; ++c) {

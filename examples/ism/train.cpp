@@ -178,10 +178,9 @@ void run_train(const TrainCommand& command) {
     if (!depth.empty()) std::printf("depth        %s\n", depth.c_str());
     std::printf("seconds      %.1f\n", watch.seconds());
     if (!model.calibration.empty() && !learnt_probabilities(model))
-        std::fprintf(
-            stderr,
-            "ism: note: with one object a class nothing tells how sure to be of what is found: "
-            "probabilities are what is typical, and two or three more objects make them much better\n");
+        std::fprintf(stderr,
+                     "ism: note: too few objects to learn how sure to be of what is found: probabilities say "
+                     "little, and two or three more objects of each class make them much better\n");
     std::printf("\nLearnt %s. Next:\n  %s detect --model %s photo.jpg\n", lessons_text(model.shapes).c_str(),
                 command.program.c_str(), shell_word(command.model.string()).c_str());
 }

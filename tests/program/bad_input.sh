@@ -117,6 +117,9 @@ $line "file 'lines.json': expected an array of results, as ism detect -o writes 
 figures=(evaluate --data toys/test.json --detections toys/detections-jism.json)
 $line "--rule uiuc: expected no --iou, got both" "$ism" "${figures[@]}" --rule uiuc --iou 0.3
 $line "--plot: expected another file than --json, got the same" "$ism" "${figures[@]}" --json out --plot ./out
+$line "--plot: expected a file, got standard output" "$ism" "${figures[@]}" --plot -
+cat toys/detections-jism.json | "$ism" evaluate --data toys/test.json --detections /dev/stdin | grep -q "^mean " ||
+    fail "evaluate: no figures of results that come through a pipe"
 "$ism" "${figures[@]}" --json - | grep -q '^  "classes": {' || fail "evaluate --json -: no JSON on standard output"
 [[ ! -e - ]] || fail "evaluate --json -: a file of this name"
 

@@ -47,14 +47,18 @@ namespace detail {
                               " such as '", one_line(files[0].filename().string()), "': name one"));
 }
 
-/// @brief Whether a file is JSON that may be labels: an object. Results are an array.
-[[nodiscard]] inline bool is_json_object(const std::filesystem::path& file) {
-    if (lower(file.extension().string()) != ".json") return false;
+/// @brief Whether a text begins as an object of JSON does.
+[[nodiscard]] inline bool begins_as_object(const std::filesystem::path& file) {
     std::ifstream stream(file);
     std::string mark(3, '\0');  // some editors put U+FEFF before a text
     if (!stream.read(mark.data(), 3) || mark != "\xEF\xBB\xBF") stream.clear(), stream.seekg(0);
     char first = 0;
     return stream >> first && first == '{';
+}
+
+/// @brief Whether a file is JSON that may be labels: an object. Results are an array.
+[[nodiscard]] inline bool is_json_object(const std::filesystem::path& file) {
+    return lower(file.extension().string()) == ".json" && begins_as_object(file);
 }
 
 [[nodiscard]] inline std::vector<std::filesystem::path> json_objects(const std::filesystem::path& folder) {
