@@ -115,33 +115,34 @@ inline void row_of_cells(const HogLevel& level, std::span<const int> xs, int top
 
 /// The numbers of a cell, by one over the lengths of the four blocks of 2 × 2 cells that it belongs to.
 ISM_DETAIL_INLINE void normalise_cell(const HogMeans& cell, const float (&norms)[4], float* out) {
-    FourFloats limit = FourFloats{} + 0.2f;
-    forget<float, 4>(limit);
-    const float last = cell[4][0], opposite = cell[4][1];
+    // vectors for eight numbers, and where those for both ways of directions and for the ends of rows begin
+    constexpr std::size_t lanes = std::min<std::size_t>(native_lanes, 8), eight = 8 / lanes, both = 2 * eight,
+                          ends = 3 * eight;
+    using Floats = Vector<float, lanes>;
+    Floats limit = Floats{} + 0.2f;
+    forget<float, lanes>(limit);
     // directions, their opposites, both together, and the ends of the three rows
-    const FourFloats numbers[] = {cell[0],
-                                  cell[1],
-                                  cell[2],
-                                  cell[3],
-                                  cell[0] + cell[2],
-                                  cell[1] + cell[3],
-                                  {last, opposite, last + opposite, 0}};
-    FourFloats sums[7]{};
+    Floats numbers[ends + 1], sums[ends + 1]{};
+    for (std::size_t k = 0; k < both; ++k) std::memcpy(&numbers[k], &cell[k * lanes / 4], sizeof(Floats));
+    for (std::size_t k = 0; k < eight; ++k) numbers[both + k] = numbers[k] + numbers[eight + k];
+    const float last = cell[4][0], opposite = cell[4][1];
+    numbers[ends] = Floats{last, opposite, last + opposite};
     for (std::size_t t = 0; t < 4; ++t) {
-        FourFloats n[7];
+        Floats n[ends + 1];
 #pragma GCC unroll 8
-        for (std::size_t part = 0; part < 7; ++part) {
+        for (std::size_t part = 0; part <= ends; ++part) {
             n[part] = numbers[part] * norms[t];
             n[part] = n[part] < limit ? n[part] : limit;
             sums[part] += n[part];
         }
-        const FourFloats all = n[0] + n[2] + (n[1] + n[3]);
-        out[27 + t] = 0.2357f * (sum_of_lanes<float, 4>(all) + n[6][0] + n[6][1]);
+        Floats all = n[0] + n[eight];
+        if constexpr (eight == 2) all += n[1] + n[3];
+        out[27 + t] = 0.2357f * (sum_of_lanes<float, lanes>(all) + n[ends][0] + n[ends][1]);
     }
-    for (FourFloats& sum : sums) sum *= 0.5f;
+    for (Floats& sum : sums) sum *= 0.5f;
     for (std::size_t row = 0; row < 3; ++row) {
-        std::memcpy(out + 9 * row, &sums[2 * row], 2 * sizeof(FourFloats));
-        out[9 * row + 8] = sums[6][row];
+        std::memcpy(out + 9 * row, &sums[row * eight], 8 * sizeof(float));
+        out[9 * row + 8] = sums[ends][row];
     }
     out[31] = cell[5][0] - 0.5f, out[32] = cell[5][1], out[33] = cell[5][2];
 }
