@@ -129,6 +129,39 @@ TEST_CASE("votes weigh for the boxes that they stand for") {
     CHECK(many.weight(0, box) == Approx(2 * 640));
 }
 
+TEST_CASE("votes agree with a box by the IoU of theirs, wherever it lies") {
+    ism::ShapeModel shapes{.class_names = {"a"}, .objects = {}};
+    shapes.objects.push_back({.class_index = 0, .width = 40, .height = 20});
+    shapes.occurrences.push_back(std::vector<ism::Occurrence>(1));
+    ism::Random random(1);
+    for (const std::size_t count : {0, 1, 15, 16, 17, 1000})
+        for (const float far : {0.0f, 6000.0f}) {
+            std::vector<ism::Feature> features(count);
+            std::vector<ism::Vote<3>> votes(count);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                features[i].x = far + float(random.uniform(0, 60));
+                features[i].y = far + float(random.uniform(0, 60));
+                features[i].scale = float(random.uniform(0.3, 3));
+                votes[i] = {.at = {}, .scale = features[i].scale, .weight = 1, .feature = i};
+            }
+            const ism::VotedBoxes voted(votes, features, shapes);
+            for (const double least : {0.0, 0.1, 0.5, 0.9}) {
+                const ism::Box box =
+                    ism::box_around({far + random.uniform(0, 60), far + random.uniform(0, 60)},
+                                    random.uniform(5, 80), random.uniform(5, 80));
+                std::vector<std::uint32_t> told, expected;
+                voted.each_agreeing(0, box, least,
+                                    [&](std::uint32_t vote, float, double) { told.push_back(vote); });
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const ism::Feature& f = features[i];
+                    if (ism::iou(ism::box_around({f.x, f.y}, 40 * f.scale, 20 * f.scale), box) >= least)
+                        expected.push_back(i);
+                }
+                CHECK(told == expected);
+            }
+        }
+}
+
 TEST_CASE("a box is small where it is so in pixels and beside its picture") {
     const ism::TypicalSize typical{.log_px = std::log(600), .log_part = std::log(0.25)};
     const ism::Box box{7, 9, 30, 20};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +21,47 @@
 
 namespace ism {
 
+namespace detail {
+
+/// The boxes of a few votes of a class, number after number, so that a processor takes many at once.
+struct VotedBlock {
+    static constexpr std::size_t most = 16;
+    using Floats = std::array<float, most>;
+
+    Floats x = {}, y = {}, width = {}, height = {};  ///< centres and sides, pixels
+    Floats weight = {};                              ///< of the votes
+    std::array<std::uint32_t, most> vote = {};
+    std::size_t count = 0;  ///< that are there
+
+    [[nodiscard]] Box box(std::size_t i) const { return box_around({x[i], y[i]}, width[i], height[i]); }
+};
+
+/// The IoU of each with a box, in floats: off by less than rounding_of_iou().
+[[nodiscard]] inline VotedBlock::Floats rough_iou(const VotedBlock& votes, const Box& box) {
+    const Point2 centre = box.centre();
+    const float x = float(centre.x), y = float(centre.y), width = float(box.width),
+                height = float(box.height);
+    const auto shared = [](float apart, float a, float b) {
+        const float touching = (a + b) / 2 - std::abs(apart), smaller = a < b ? a : b,
+                    most = touching < smaller ? touching : smaller;
+        return most > 0 ? most : 0;
+    };
+    VotedBlock::Floats result;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const float both =
+            shared(votes.x[i] - x, votes.width[i], width) * shared(votes.y[i] - y, votes.height[i], height);
+        result[i] = both / (votes.width[i] * votes.height[i] + width * height - both);
+    }
+    return result;
+}
+[[nodiscard]] inline double rounding_of_iou(const Box& box) {
+    const Point2 centre = box.centre();
+    const double rounding_px = 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + box.width + box.height);
+    return 1e-3 + 8 * rounding_px / std::min(box.width, box.height);
+}
+
+}  // namespace detail
+
 /// @brief The boxes that the votes of an image stand for.
 class VotedBoxes {
 public:
@@ -31,14 +74,13 @@ public:
         : of_class_(shapes.class_names.size()) {
         std::vector<std::size_t> counts(of_class_.size(), 0);
         for (const auto& vote : votes) ++counts[shapes.occurrence(vote.occurrence).class_index];
-        for (std::size_t c = 0; c < counts.size(); ++c) of_class_[c].reserve(counts[c]);
+        for (std::size_t c = 0; c < counts.size(); ++c)
+            of_class_[c].reserve(counts[c] / detail::VotedBlock::most + 1);
         for (std::uint32_t i = 0; i < votes.size(); ++i) {
             const Occurrence& o = shapes.occurrence(votes[i].occurrence);
             const TrainingObject& object = shapes.objects[o.object];
-            const Box box = placed_box(placement(features[votes[i].feature], o), object);
-            const Point2 centre = box.centre();
-            of_class_[o.class_index].push_back(
-                {float(centre.x), float(centre.y), float(box.width), float(box.height), votes[i].weight, i});
+            add(placed_box(placement(features[votes[i].feature], o), object), votes[i].weight, i,
+                of_class_[o.class_index]);
         }
     }
 
@@ -46,13 +88,14 @@ public:
     template <Callable<std::uint32_t, float, double> Tell>
     void each_agreeing(std::uint32_t class_index, const Box& box, double min_agreement,
                        const Tell& tell) const {
-        const Point2 centre = box.centre();
-        for (const Voted& v : of_class_[class_index]) {
-            if (std::abs(double(v.x) - centre.x) > box.width / 2 ||
-                std::abs(double(v.y) - centre.y) > box.height / 2)
-                continue;
-            const double agreement = iou(box_around({v.x, v.y}, v.width, v.height), box);
-            if (agreement >= min_agreement) tell(v.vote, v.weight, agreement);
+        const auto rough = float(min_agreement - detail::rounding_of_iou(box));
+        for (const detail::VotedBlock& votes : of_class_[class_index]) {
+            const auto about = detail::rough_iou(votes, box);
+            for (std::size_t i = 0; i < votes.count; ++i) {
+                if (!(about[i] >= rough)) continue;
+                const double agreement = iou(votes.box(i), box);
+                if (agreement >= min_agreement) tell(votes.vote[i], votes.weight[i], agreement);
+            }
         }
     }
     /// @brief The weight of the votes of a class that agree with a box, each as much as it does.
@@ -80,21 +123,29 @@ public:
     /// for sums over many classes.
     void thin(std::uint32_t class_index) {
         constexpr std::size_t step = 64;
-        std::vector<Voted> kept;
-        for (std::size_t i = step / 2; i < of_class_[class_index].size(); i += step) {
-            kept.push_back(of_class_[class_index][i]);
-            kept.back().weight *= float(step);
-        }
+        std::size_t passed = step / 2;  // since the last that was kept
+        Blocks kept;
+        for (const detail::VotedBlock& votes : of_class_[class_index])
+            for (std::size_t i = 0; i < votes.count; ++i)
+                if (passed++ % step == 0)
+                    add(votes.box(i), float(step) * votes.weight[i], votes.vote[i], kept);
         of_class_[class_index] = std::move(kept);
     }
 
 private:
-    struct Voted {
-        float x, y, width, height;  ///< centre and sides, pixels
-        float weight;
-        std::uint32_t vote;
-    };
-    std::vector<std::vector<Voted>> of_class_;
+    using Blocks = std::vector<detail::VotedBlock>;
+
+    static void add(const Box& box, float weight, std::uint32_t vote, Blocks& to) {
+        if (to.empty() || to.back().count == detail::VotedBlock::most) to.emplace_back();
+        detail::VotedBlock& votes = to.back();
+        const Point2 centre = box.centre();
+        const std::size_t i = votes.count++;
+        votes.x[i] = float(centre.x), votes.y[i] = float(centre.y);
+        votes.width[i] = float(box.width), votes.height[i] = float(box.height);
+        votes.weight[i] = weight, votes.vote[i] = vote;
+    }
+
+    std::vector<Blocks> of_class_;
 };
 
 }  // namespace ism
