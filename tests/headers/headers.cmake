@@ -29,16 +29,20 @@ else()
 endif()
 set_tests_properties(headers/alone PROPERTIES LABELS headers TIMEOUT 300 COST 100 SKIP_REGULAR_EXPRESSION "^skipped: ")
 
-# All headers in one source, a second time too: each guards itself, and what is defined in one is inline.
+# All headers in one source, a second time too, and in another from the last to the first: each guards itself, needs no other
+# before it nor is confused by one, and what is defined in one is inline.
 set(together ${all_headers})
 list(REMOVE_ITEM together ism/io/stb_implementation.hpp) # which is for one source of a program
 list(TRANSFORM together REPLACE "(.+)" "#include \"\\1\"\n")
 string(CONCAT includes ${together})
 file(CONFIGURE OUTPUT "${test_build_dir}/headers/together.cpp" CONTENT "${includes}// a second time\n${includes}")
-add_library(header_check OBJECT EXCLUDE_FROM_ALL "${test_build_dir}/headers/together.cpp")
+list(REVERSE together)
+string(CONCAT includes ${together})
+file(CONFIGURE OUTPUT "${test_build_dir}/headers/reversed.cpp" CONTENT "${includes}")
+add_library(header_check OBJECT EXCLUDE_FROM_ALL "${test_build_dir}/headers/together.cpp" "${test_build_dir}/headers/reversed.cpp")
 target_link_libraries(header_check PRIVATE ism_dev_options)
 target_compile_options(header_check PRIVATE -O0)
 add_test(NAME headers/together
-         COMMAND "${CMAKE_COMMAND}" "-DBUILD=${CMAKE_BINARY_DIR}" -DTARGET=header_check "-DOBJECT=$<TARGET_OBJECTS:header_check>"
+         COMMAND "${CMAKE_COMMAND}" "-DBUILD=${CMAKE_BINARY_DIR}" -DTARGET=header_check "-DOBJECTS=$<TARGET_OBJECTS:header_check>"
                  "-DNM=${CMAKE_NM}" -P "${test_dir}/headers/check_together.cmake")
 set_tests_properties(headers/together PROPERTIES LABELS headers TIMEOUT 300 COST 100)

@@ -76,21 +76,21 @@ struct ImageFolds {
 }
 
 /// An object as it was found on an image that its judges had not seen, and what was cut out of it.
-struct FoundObject {
+struct CutOutObject {
     std::size_t image = 0;
     PlacedBox placed = {};
     MaskMeasures mask = {};
 };
 
 /// The objects of a class that were found, or an even choice of them.
-[[nodiscard]] inline std::vector<FoundObject> found_objects(std::span<const JudgedBox> judged,
-                                                            std::span<const TrainingView* const> views,
-                                                            std::uint32_t class_index) {
+[[nodiscard]] inline std::vector<CutOutObject> objects_to_cut_out(std::span<const JudgedBox> judged,
+                                                                  std::span<const TrainingView* const> views,
+                                                                  std::uint32_t class_index) {
     constexpr std::size_t most = 100;  // are enough
-    std::vector<FoundObject> found;
+    std::vector<CutOutObject> found;
     for (const JudgedBox& box : judged) {
         if (!box.right || box.class_index != class_index) continue;
-        FoundObject object{.image = box.image, .placed = {.judged = box.box, .mask = box.box}};
+        CutOutObject object{.image = box.image, .placed = {.judged = box.box, .mask = box.box}};
         for (const ObjectLabel& label : views[box.image]->labels)
             if (label.class_index == class_index &&
                 iou(label.box, box.box) > iou(object.placed.label, box.box))
@@ -98,7 +98,7 @@ struct FoundObject {
         found.push_back(object);
     }
     const std::size_t step = std::max<std::size_t>(1, (found.size() + most - 1) / most);
-    std::vector<FoundObject> chosen;
+    std::vector<CutOutObject> chosen;
     for (std::size_t i = 0; i < found.size(); i += step) chosen.push_back(found[i]);
     return chosen;
 }
@@ -120,9 +120,9 @@ struct CutOuts {
     const ExemplarSegmenter segmenter;
     CutOuts learnt;
     for (std::uint32_t c = 0; c < model.shapes.class_names.size(); ++c) {
-        std::vector<FoundObject> found = found_objects(judged, views, c);
+        std::vector<CutOutObject> found = objects_to_cut_out(judged, views, c);
         drop_if(found,
-                [&](const FoundObject& object) { return lenders[folds.of_image[object.image]][c].empty(); });
+                [&](const CutOutObject& object) { return lenders[folds.of_image[object.image]][c].empty(); });
         Placing placing;
         for (int cut = 0; cut < segmenter.cuts; ++cut) {
             parallel_for(found.size(), threads, [&](std::size_t i) {
@@ -139,11 +139,11 @@ struct CutOuts {
                 mask = measure_mask(part, placing.place(placed.judged, placed.mask));
             });
             std::vector<PlacedBox> placed;
-            for (const FoundObject& object : found) placed.push_back(object.placed);
+            for (const CutOutObject& object : found) placed.push_back(object.placed);
             placing = fit_placing(placed);
         }
         std::vector<MaskMeasures> masks;
-        for (const FoundObject& object : found) masks.push_back(object.mask);
+        for (const CutOutObject& object : found) masks.push_back(object.mask);
         learnt.typical_masks.push_back(typical_mask(masks));
         learnt.placings.push_back(placing);
     }
