@@ -118,8 +118,8 @@ TEST_CASE("votes weigh for the boxes that they stand for") {
     CHECK(voted.share(1, box) == Approx(1 - voted.share(0, box)));
     CHECK(voted.share(0, {80, 40, 80, 40}) == 0.5);
     std::vector<std::uint32_t> agreeing;
-    voted.each_agreeing(0, box, 0.9, [&](std::uint32_t vote, float, double) { agreeing.push_back(vote); });
-    CHECK(agreeing == std::vector<std::uint32_t>{0});
+    voted.each_agreeing(0, box, [&](std::uint32_t vote, float, double) { agreeing.push_back(vote); });
+    CHECK(agreeing == std::vector<std::uint32_t>{0, 1});
     voted.thin(0);
     CHECK(voted.weight(0, box) == 0);
     CHECK(voted.weight(1, box) == Approx(5));
@@ -145,16 +145,15 @@ TEST_CASE("votes agree with a box by the IoU of theirs, wherever it lies") {
                 votes[i] = {.at = {}, .scale = features[i].scale, .weight = 1, .feature = i};
             }
             const ism::VotedBoxes voted(votes, features, shapes);
-            for (const double least : {0.0, 0.1, 0.5, 0.9}) {
+            for (int k = 0; k < 10; ++k) {
                 const ism::Box box =
                     ism::box_around({far + random.uniform(0, 60), far + random.uniform(0, 60)},
                                     random.uniform(5, 80), random.uniform(5, 80));
                 std::vector<std::uint32_t> told, expected;
-                voted.each_agreeing(0, box, least,
-                                    [&](std::uint32_t vote, float, double) { told.push_back(vote); });
+                voted.each_agreeing(0, box, [&](std::uint32_t vote, float, double) { told.push_back(vote); });
                 for (std::uint32_t i = 0; i < count; ++i) {
                     const ism::Feature& f = features[i];
-                    if (ism::iou(ism::box_around({f.x, f.y}, 40 * f.scale, 20 * f.scale), box) >= least)
+                    if (ism::iou(ism::box_around({f.x, f.y}, 40 * f.scale, 20 * f.scale), box) >= 0.5)
                         expected.push_back(i);
                 }
                 CHECK(told == expected);

@@ -163,6 +163,20 @@ TEST_CASE("of objects at one place that are found in several turns the strongest
     CHECK(found.next_best->probability == 0.04);
 }
 
+TEST_CASE("of one turn, too, what is not probable enough is left out") {
+    const ism::Frame frame{.gray = ism::GrayImage(64, 48)};
+    const auto found = ism::detect_turned(frame, {.turns = 1, .min_probability = 0.5}, [](const ism::Frame&) {
+        ism::Detection sure, unsure;
+        sure.box = {0, 0, 20, 20}, sure.score = sure.probability = 0.9;
+        unsure.box = {40, 20, 20, 20}, unsure.score = unsure.probability = 0.1;
+        return ism::Detections{.objects = {sure, unsure}};
+    });
+    REQUIRE(found.objects.size() == 1);
+    CHECK(found.objects[0].probability == 0.9);
+    REQUIRE(found.next_best.has_value());
+    CHECK(found.next_best->probability == 0.1);
+}
+
 TEST_CASE("what templates judged yields to what is more probable at another angle") {
     const ism::Frame frame{.gray = ism::GrayImage(64, 48)};
     // In the middle class 0 is seen upright with odds of e, class 1 upside down with e^3.

@@ -112,6 +112,21 @@ double iou_with_truth(const ism::Segmentation& part, const ism::TrainingImage& i
 
 }  // namespace
 
+TEST_CASE("a box as a mask has the pixels whose middles lie in it") {
+    ism::Random random(3);
+    for (int k = 0; k < 200; ++k) {
+        const double x = random.uniform(-6, 14), y = random.uniform(-6, 10);
+        const ism::Box box = k % 2 == 0 ? ism::Box{x, y, random.uniform(0.1, 15), random.uniform(0.1, 12)}
+                                        : ism::Box{std::round(x) + 0.5, std::round(y) - 0.5, 3, 4};
+        const ism::Mask mask = ism::object_mask({.box = box}, 12, 9);
+        for (int row = 0; row < 9; ++row)
+            for (int column = 0; column < 12; ++column)
+                CHECK((mask(column, row) != 0) ==
+                      (column + 0.5 >= box.x && column + 0.5 <= box.x + box.width && row + 0.5 >= box.y &&
+                       row + 0.5 <= box.y + box.height));
+    }
+}
+
 TEST_CASE("an exemplar is what its box looks like, and its mirror image what a mirror shows") {
     const auto left = animal_picture(7, true, 65), right = animal_picture(7, false, 65);
     const auto cells = ism::describe_exemplar(left.frame.color, left.objects[0].box);

@@ -257,6 +257,10 @@ TEST_CASE("a pyramid describes an image the same, whatever it described before")
     CHECK(used.level_for(0.1).width == 61);  // finer levels are gone
     used.assign(large, -1, pool);
     CHECK(cells_of(used) == cells_of(ism::HogPyramid(large, -1, pool)));
+    const ism::HogPyramid taken = std::move(used);
+    CHECK(cells_of(taken) == cells_of(ism::HogPyramid(large, -1, pool)));
+    used.assign(small, 0, pool);  // NOLINT(bugprone-use-after-move)
+    CHECK(cells_of(used) == cells_of(ism::HogPyramid(small, 0, pool)));
 }
 
 TEST_CASE("an image that shrinks keeps its mean, one of a single colour its colour") {

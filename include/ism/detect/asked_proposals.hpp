@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -25,14 +26,25 @@ namespace ism {
     const std::size_t classes = shapes.class_names.size();
     if (classes <= max_classes)
         return std::vector<std::vector<ProposedBox>>(classes, {proposals.begin(), proposals.end()});
+    struct Voted {
+        float x, y, weight;
+        std::uint32_t class_index;
+    };
+    std::vector<Voted> voted;
+    for (const auto& vote : votes)
+        voted.push_back(
+            {vote.at[0], vote.at[1], vote.weight, shapes.occurrence(vote.occurrence).class_index});
+    detail::sort_by(voted, [](const Voted& v) { return detail::rising(v.y); });
     std::vector<std::vector<ProposedBox>> asked(classes);
     for (const ProposedBox& proposal : proposals) {
         const Point2 centre = proposal.box.centre();
+        const double top = centre.y - proposal.box.height / 2, bottom = centre.y + proposal.box.height / 2;
         std::vector<double> weight(classes, 0);
-        for (const auto& vote : votes)
-            if (std::abs(vote.at[0] - centre.x) < proposal.box.width / 2 &&
-                std::abs(vote.at[1] - centre.y) < proposal.box.height / 2)
-                weight[shapes.occurrence(vote.occurrence).class_index] += vote.weight;
+        auto vote =
+            std::partition_point(voted.begin(), voted.end(), [&](const Voted& v) { return v.y <= top; });
+        for (; vote != voted.end() && vote->y < bottom; ++vote)
+            if (std::abs(vote->x - centre.x) < proposal.box.width / 2)
+                weight[vote->class_index] += vote->weight;
         std::vector<detail::Ranked> order;
         for (std::uint32_t c = 0; c < classes; ++c)
             if (c != proposal.class_index) order.push_back({detail::falling(weight[c]), c});

@@ -89,10 +89,6 @@ namespace detail {
     return object;
 }
 
-inline void keep_more_probable(std::optional<Detection>& best, Detection other) {
-    if (!best || other.probability > best->probability) best = std::move(other);
-}
-
 inline void add_stats(DetectionStats& sum, const DetectionStats& more) {
     sum.features += more.features, sum.matches += more.matches, sum.votes += more.votes;
     sum.hypotheses += more.hypotheses, sum.candidates += more.candidates, sum.segmented += more.segmented;
@@ -133,7 +129,6 @@ template <Callable<const Frame&> Find>
     check(options);
     check(frame);
     Detections all = find(frame);
-    if (options.turns == 1) return all;
     for (int k = 1; k < options.turns; ++k) {
         const double angle_rad = 2 * std::numbers::pi * k / options.turns;
         const ImageTurn turn(frame.gray.width(), frame.gray.height(), -angle_rad);
@@ -156,7 +151,7 @@ template <Callable<const Frame&> Find>
                 detail::keep_more_probable(all.next_best, std::move(*here));
         detail::add_stats(all.stats, found.stats);
     }
-    if (!calibration.empty()) yield_to_rivals(all.objects, calibration, options.rivals);
+    if (options.turns > 1 && !calibration.empty()) yield_to_rivals(all.objects, calibration, options.rivals);
     const NonMaximumSuppression suppression{.max_inside = calibration.tells_apart() ? 1 : 0.5,
                                             .across_classes = calibration.empty()};
     std::vector<Detection> strongest;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "ism/core/camera.hpp"
@@ -72,7 +73,8 @@ struct Detection {
         std::numeric_limits<double>::quiet_NaN();  ///< standard error of position_m, by
                                                    ///< how its votes scatter; NaN = not known
     double size_m =
-        std::numeric_limits<double>::quiet_NaN();  ///< root of the box's area at this depth; NaN = not known
+        std::numeric_limits<double>::quiet_NaN();  ///< of the training objects of its votes, as
+                                                   ///< TrainingObject::size_m; NaN = not of votes with poses
     std::optional<Rotation> rotation =
         {};                     ///< against the training image of the heaviest vote; only of votes with poses
     Segmentation segmentation;  ///< figure and ground maps and mask
@@ -99,5 +101,13 @@ struct Detections {
     std::optional<Detection> next_best = {};  ///< the most probable of what DetectOptions::min_probability
                                               ///< left out. It may lack a mask: then none has judged it
 };
+
+namespace detail {
+
+inline void keep_more_probable(std::optional<Detection>& best, Detection other) {
+    if (!best || other.probability > best->probability) best = std::move(other);
+}
+
+}  // namespace detail
 
 }  // namespace ism

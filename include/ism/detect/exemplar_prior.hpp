@@ -114,7 +114,7 @@ public:
     [[nodiscard]] GrayImage prior() const { return lent(likeness_); }
 
     /// @brief The same by those whose masks agree with what is known of the picture, in the 5 × 5 cells
-    /// around.
+    /// around, without the outermost ring.
     /// @param figure  p(figure) as samples, as prior() returns them
     [[nodiscard]] GrayImage prior(const GrayImage& figure) const {
         constexpr int n = cells_side;

@@ -14,6 +14,7 @@
 #include "ism/core/error.hpp"
 #include "ism/core/frame.hpp"
 #include "ism/core/frame_colors.hpp"
+#include "ism/core/logistic.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/hypotheses.hpp"
 #include "ism/detect/mask_candidates.hpp"
@@ -29,11 +30,17 @@ namespace ism {
 /// for every class, and MaskJudge tells by votes, colour and shape which they show. For vote spaces with
 /// poses and models of learn_mask_judge(); with their masks, see KeepSegmentation.
 struct MaskJudgeScore {
-    MaskCandidateOptions candidates = {};
-    double min_logit = -6;  ///< less probable ones are not candidates
+    MaskCandidateOptions candidates = {};      ///< as the judge was learnt, see MaskJudgeOptions
+    static constexpr double least_logit = -6;  ///< what is less probable is not told
 
     [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses, const Scene& scene) const;
 };
+
+/// @brief Validates options.
+/// @throws Error for one out of range.
+inline void check(const MaskJudgeScore& options) {
+    check(options.candidates.segments);
+}
 
 /// @brief The mask that a rescorer gave, as a segmentation that is sure of itself.
 struct KeepSegmentation {
@@ -136,11 +143,11 @@ inline std::vector<Detection> MaskJudgeScore::rescore(std::vector<Detection> hyp
         for (std::uint32_t c = 0; c < classes; ++c) {
             const MaskCues cues = mask_cues(votes, looks, outline, c);
             const double logit = std::clamp(judge.logit(cues), -300.0, 300.0);  // its odds stay finite
-            if (logit < min_logit) continue;
+            if (logit < least_logit) continue;
             Detection detection;
             detection.class_index = c;
             detection.score = std::exp(logit);
-            detection.probability = 1 / (1 + std::exp(-logit));
+            detection.probability = logistic(logit);
             move_to(detection, box_of(regions[i]), {});
             detection.segmentation.x = regions[i].x, detection.segmentation.y = regions[i].y;
             detection.segmentation.mask = regions[i].mask;

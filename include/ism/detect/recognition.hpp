@@ -97,10 +97,6 @@ template <Rescorer R, Segmenter S, Verifier V>
     std::vector<Verified> verified = verifier.verify(hypotheses, scene);
     sort_by_score(verified);
     Detections result;
-    const auto left_out = [&](Detection& object) {
-        if (!result.next_best || object.probability > result.next_best->probability)
-            result.next_best = std::move(object);
-    };
     const double least =
         masks_first ? options.min_probability : least_before_masks<S>(options.min_probability);
     for (const auto& [index, score] : verified) {
@@ -113,7 +109,7 @@ template <Rescorer R, Segmenter S, Verifier V>
         if (!judged || object.probability >= least)
             result.objects.push_back(std::move(object));
         else
-            left_out(object);
+            keep_more_probable(result.next_best, std::move(object));
     }
     stats.verify_ms = watch.lap_ms();
     if (!masks_first) {
@@ -123,7 +119,7 @@ template <Rescorer R, Segmenter S, Verifier V>
             cut_out.swap(result.objects);
             for (Detection& object : cut_out)
                 if (object.probability < options.min_probability)
-                    left_out(object);
+                    keep_more_probable(result.next_best, std::move(object));
                 else
                     result.objects.push_back(std::move(object));
         }

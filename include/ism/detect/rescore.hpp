@@ -4,7 +4,6 @@
 
 #include <concepts>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -44,20 +43,6 @@ struct BoxClassifierScore {
                 one.score *= classifier.probability(one.class_index, words.histogram(one.box));
             one.probability = scene.model.calibration.probability(one.class_index, one.score);
         });
-        return hypotheses;
-    }
-};
-
-/// @brief Several rescorers, one after another.
-template <Rescorer... Parts>
-struct RescorerChain {
-    std::tuple<Parts...> parts = {};
-
-    [[nodiscard]] std::vector<Detection> rescore(std::vector<Detection> hypotheses,
-                                                 const Scene& scene) const {
-        std::apply(
-            [&](const Parts&... part) { ((hypotheses = part.rescore(std::move(hypotheses), scene)), ...); },
-            parts);
         return hypotheses;
     }
 };

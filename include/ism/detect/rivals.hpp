@@ -12,6 +12,7 @@
 #include "ism/core/error.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/lists.hpp"
+#include "ism/core/logistic.hpp"
 #include "ism/core/order.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/hog/propose_boxes.hpp"
@@ -49,11 +50,6 @@ inline void change_log_odds(Detection& detection, double change, const Calibrati
         leads.push_back(strongest - odds[i]);
     }
     return leads;
-}
-
-/// @brief log(1 + eˣ), for any x.
-[[nodiscard]] inline double softplus(double x) {
-    return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x)));
 }
 
 /// @brief Whether a box may show a part of what another shows.

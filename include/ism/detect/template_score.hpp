@@ -36,13 +36,6 @@ namespace ism {
 /// template's margin with what the other cues are worth, see CueWeights; the support are the votes of the
 /// class that agree with the box that was found.
 struct TemplateScore {
-    std::size_t max_proposals = most_proposals;  ///< hypotheses that are asked, the strongest
-    std::size_t least_boxes = searched_boxes;  ///< of a class that are placed by searching; more where there
-                                               ///< are many hypotheses, see boxes_to_search()
-    std::size_t max_classes =
-        asked_classes;  ///< that are asked about a hypothesis, those of most vote weight there
-    double min_agreement =
-        VotedBoxes::default_agreement;  ///< IoU of the box that a vote stands for with that of the detection
     RivalOptions rivals = {};  ///< see yield_to_rivals(); where nothing is calibrated parts are left out
     bool explain = false;      ///< also tell which cells of a template speak for and against
 
@@ -52,11 +45,6 @@ struct TemplateScore {
 /// @brief Validates options.
 /// @throws Error for one out of range.
 inline void check(const TemplateScore& options) {
-    expect(options.max_proposals > 0, "TemplateScore::max_proposals", "1 or more", 0);
-    expect(options.least_boxes > 0, "TemplateScore::least_boxes", "1 or more", 0);
-    expect(options.max_classes > 0, "TemplateScore::max_classes", "1 or more", 0);
-    expect(options.min_agreement >= 0 && options.min_agreement <= 1, "TemplateScore::min_agreement",
-           "0 ... 1", options.min_agreement);
     check(options.rivals);
 }
 
@@ -66,7 +54,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     if (model.templates.empty() || hypotheses.empty()) return hypotheses;
     std::vector<ProposedBox> proposals;
     for (const Detection& hypothesis : hypotheses)
-        if (proposals.size() < max_proposals) proposals.push_back({hypothesis.class_index, hypothesis.box});
+        if (proposals.size() < most_proposals) proposals.push_back({hypothesis.class_index, hypothesis.box});
     const FrameColors colors(scene.frame);
     const RgbImage& color = colors.image();
     FrameMemory own;
@@ -82,13 +70,13 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     const DetectOptions options = proposal_options<Jism>();
     const auto votes = cast_votes<Jism>(scene, options.matching, vote_limits(scene, options));
     const VotedBoxes voted(votes, scene.features, model.shapes);
-    const auto asked = asked_proposals(proposals, votes, max_classes, model.shapes);
+    const auto asked = asked_proposals(proposals, votes, asked_classes, model.shapes);
     std::vector<Detection> found;
     std::vector<double> margins;
     CellScratch scratch;
     for (std::uint32_t c = 0; c < model.templates.size(); ++c) {
         const TemplateScorer scorer(model.templates[c]);
-        const std::size_t searched = boxes_to_search(asked[c], c, least_boxes);
+        const std::size_t searched = boxes_to_search(asked[c], c);
         for (const SearchedBox& box : propose_boxes(scorer, c, pyramid, asked[c], searched, scene.pool)) {
             Detection detection;
             detection.class_index = c, detection.box = box.box;
@@ -126,15 +114,14 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
             detection.box_reasons = reasons.in_odds(curve.slope, curve.offset);
         }
         std::vector<Support> support;
-        voted.each_agreeing(
-            c, detection.box, min_agreement, [&](std::uint32_t vote, float weight, double agreement) {
-                const auto& v = votes[vote];
-                support.push_back({v.feature, v.word, v.occurrence, float(weight * agreement)});
-            });
+        voted.each_agreeing(c, detection.box, [&](std::uint32_t vote, float weight, double agreement) {
+            const auto& v = votes[vote];
+            support.push_back({v.feature, v.word, v.occurrence, float(weight * agreement)});
+        });
         if (!support.empty()) {
-            const Detection described = describe_hypothesis(detection.score, std::move(support), scene);
+            Detection described = describe_hypothesis(detection.score, std::move(support), scene);
             detection.angle = described.angle, detection.depth_m = described.depth_m;
-            detection.support = described.support;
+            detection.support = std::move(described.support);
         }
         move_to(detection, detection.box, scene.frame.camera);
     });

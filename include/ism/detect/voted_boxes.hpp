@@ -66,7 +66,7 @@ struct VotedBlock {
 class VotedBoxes {
 public:
     /// @brief IoU of the box that a vote stands for with one that it agrees with.
-    static constexpr double default_agreement = 0.5;
+    static constexpr double least_agreement = 0.5;
 
     VotedBoxes() = default;
     VotedBoxes(std::span<const Vote<Jism::dimension>> votes, std::span<const Feature> features,
@@ -86,15 +86,14 @@ public:
 
     /// @brief Calls tell(vote, weight, IoU) for each vote of a class that agrees with a box, by index.
     template <Callable<std::uint32_t, float, double> Tell>
-    void each_agreeing(std::uint32_t class_index, const Box& box, double min_agreement,
-                       const Tell& tell) const {
-        const auto rough = float(min_agreement - detail::rounding_of_iou(box));
+    void each_agreeing(std::uint32_t class_index, const Box& box, const Tell& tell) const {
+        const auto rough = float(least_agreement - detail::rounding_of_iou(box));
         for (const detail::VotedBlock& votes : of_class_[class_index]) {
             const auto about = detail::rough_iou(votes, box);
             for (std::size_t i = 0; i < votes.count; ++i) {
                 if (!(about[i] >= rough)) continue;
                 const double agreement = iou(votes.box(i), box);
-                if (agreement >= min_agreement) tell(votes.vote[i], votes.weight[i], agreement);
+                if (agreement >= least_agreement) tell(votes.vote[i], votes.weight[i], agreement);
             }
         }
     }
@@ -102,7 +101,7 @@ public:
     [[nodiscard]] double weight(std::uint32_t class_index, const Box& box) const {
         double sum = 0;
         if (class_index < of_class_.size())
-            each_agreeing(class_index, box, default_agreement,
+            each_agreeing(class_index, box,
                           [&](std::uint32_t, float weight, double agreement) { sum += weight * agreement; });
         return sum;
     }

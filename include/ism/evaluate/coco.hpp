@@ -110,8 +110,9 @@ template <MatchRule R>
     const detail::DatasetTruth truth = detail::truth_of(dataset);
     const auto overlap = [&](std::size_t f, std::size_t t) {
         const DatasetImage& image = dataset.images[truth.where[t].first];
-        const Mask mask = read_mask(image, image.objects[truth.where[t].second]);
-        if (mask.empty() || !results[f].segmentation) return std::numeric_limits<double>::quiet_NaN();
+        const Mask mask =
+            results[f].segmentation ? read_mask(image, image.objects[truth.where[t].second]) : Mask();
+        if (mask.empty()) return std::numeric_limits<double>::quiet_NaN();
         const CompressedRle& packed = *results[f].segmentation;
         expect(packed.width == mask.width() && packed.height == mask.height(),
                lazy_text("result ", f, ": mask size"), size_text(mask),

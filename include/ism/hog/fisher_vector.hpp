@@ -44,7 +44,8 @@ using Patch = std::array<float, patch_axes>;
 /// @brief What a patch has to do with each Gaussian of a mixture.
 struct PatchPlace {
     std::array<Patch, PatchMixture::gaussians> apart;  ///< from its mean, in standard deviations
-    std::array<float, PatchMixture::gaussians> share;  ///< p(Gaussian | patch); below 1/1000 it is 0
+    std::array<float, PatchMixture::gaussians>
+        share;  ///< p(Gaussian | patch); 0 below 1/1000 of the likeliest
 };
 
 /// @brief Tells where patches lie in a mixture.

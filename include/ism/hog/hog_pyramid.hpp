@@ -61,7 +61,7 @@ public:
             numbers += HogLevel::count(w, h);
             last_ = k;
         }
-        if (memory_size_ < numbers) {
+        if (!memory_ || memory_size_ < numbers) {
             memory_.reset(), memory_size_ = 0;  // given back before there is more
             const std::size_t size =
                 numbers + numbers / 2;  // room for larger images; untouched, it costs nothing

@@ -34,7 +34,7 @@ struct ProposedBox {
     Box box;
 };
 
-/// @brief Boxes of a class in an image that are searched, at least and unless asked otherwise: in training as
+/// @brief Boxes of a class in an image that are searched, at least and in training as
 /// in detection.
 inline constexpr std::size_t searched_boxes = 12;
 
@@ -44,14 +44,14 @@ inline constexpr std::size_t most_proposals = 5000;
 /// @brief How many boxes of a class are searched in an image: `least`, or a tenth of the hypotheses whose
 /// votes speak for it where that is more, since a wide picture has more places for it.
 [[nodiscard]] inline std::size_t boxes_to_search(std::span<const ProposedBox> proposals,
-                                                 std::uint32_t class_index, std::size_t least) {
+                                                 std::uint32_t class_index) {
     const auto own = std::count_if(proposals.begin(), proposals.end(), [&](const ProposedBox& proposal) {
         return proposal.class_index == class_index;
     });
-    return std::max(least, std::size_t(own) / 10);
+    return std::max(searched_boxes, std::size_t(own) / 10);
 }
 
-/// @brief Classes that are asked about a hypothesis, unless asked otherwise: in training as in detection.
+/// @brief Classes that are asked about a hypothesis, in training as in detection.
 inline constexpr std::size_t asked_classes = 8;
 
 /// @brief The best boxes, best first, of which no two overlap by an IoU above 0.7.

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "ism/core/geometry.hpp"
+#include "ism/core/row_product.hpp"
 #include "ism/hog/box_template.hpp"
 #include "ism/hog/describe_cells.hpp"
 #include "ism/hog/hog_pyramid.hpp"
@@ -64,14 +64,7 @@ public:
 
 private:
     [[nodiscard]] static double dot(std::span<const float> a, std::span<const float> b) {
-        std::array<float, 16> sums{};
-        const std::size_t whole = a.size() / 16 * 16;
-        for (std::size_t k = 0; k < whole; k += 16)
-            for (std::size_t l = 0; l < 16; ++l) sums[l] += a[k + l] * b[k + l];
-        double sum = 0;
-        for (const float s : sums) sum += s;
-        for (std::size_t k = whole; k < a.size(); ++k) sum += a[k] * b[k];
-        return sum;
+        return detail::row_product(a.data(), b.data(), a.size());
     }
 
     const BoxTemplate* template_;

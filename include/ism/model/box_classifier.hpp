@@ -15,6 +15,7 @@
 #include "ism/core/geometry.hpp"
 #include "ism/core/grouped.hpp"
 #include "ism/core/lists.hpp"
+#include "ism/core/logistic.hpp"
 #include "ism/core/order.hpp"
 #include "ism/feature/feature.hpp"
 
@@ -62,7 +63,7 @@ struct BoxClassifier {
     /// @brief p(class | words in the box), 0 … 1; 1 without a classifier.
     [[nodiscard]] double probability(std::size_t class_index,
                                      const std::vector<SparseEntry>& histogram) const {
-        return empty() ? 1 : 1 / (1 + std::exp(-logit(class_index, histogram)));
+        return empty() ? 1 : logistic(logit(class_index, histogram));
     }
 };
 

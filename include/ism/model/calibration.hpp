@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ism/config.hpp"
+#include "ism/core/logistic.hpp"
 
 namespace ism {
 
@@ -34,7 +35,7 @@ struct Calibration {
         if (empty()) return std::nan("");
         if (!(score > 0)) return 0;
         const Curve& curve = curves[class_index];
-        return 1 / (1 + std::exp(-(curve.slope * std::log(score) + curve.offset)));
+        return logistic(curve.slope * std::log(score) + curve.offset);
     }
 };
 

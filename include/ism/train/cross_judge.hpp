@@ -14,6 +14,7 @@
 
 #include "ism/core/color_bins.hpp"
 #include "ism/core/geometry.hpp"
+#include "ism/core/logistic.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/box_colors.hpp"
 #include "ism/hog/fisher_vector.hpp"
@@ -180,7 +181,7 @@ struct FoldJudges {
                 for (const JudgedBox& box : judged) {
                     const Calibration::Curve& curve = calibration.curves[box.class_index];
                     const double odds = curve.slope * weights.margin(box.cues) + curve.offset;
-                    loss += std::log1p(std::exp(box.right ? -odds : odds));
+                    loss += softplus(box.right ? -odds : odds);
                 }
                 if (loss < least_loss) least_loss = loss, best = weights;
             }

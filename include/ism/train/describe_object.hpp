@@ -30,10 +30,14 @@ namespace ism {
 [[nodiscard]] inline Mask object_mask(const LabelledObject& object, int width, int height) {
     if (!object.mask.empty()) return object.mask;
     Mask mask(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            mask(x, y) = x + 0.5 >= object.box.x && x + 0.5 <= object.box.x + object.box.width &&
-                         y + 0.5 >= object.box.y && y + 0.5 <= object.box.y + object.box.height;
+    const auto inside = [](double px, int end) { return int(std::clamp(px, 0.0, double(end))); };
+    const Box& box = object.box;  // of whose pixels the middles lie in it
+    const int left = inside(std::ceil(box.x - 0.5), width),
+              right = inside(std::floor(box.x + box.width - 0.5) + 1, width);
+    const int top = inside(std::ceil(box.y - 0.5), height),
+              bottom = inside(std::floor(box.y + box.height - 0.5) + 1, height);
+    for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x) mask(x, y) = 1;
     return mask;
 }
 

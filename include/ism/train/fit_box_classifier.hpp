@@ -14,6 +14,7 @@
 
 #include "ism/core/error.hpp"
 #include "ism/core/grouped.hpp"
+#include "ism/core/logistic.hpp"
 #include "ism/core/random.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/model/box_classifier.hpp"
@@ -73,10 +74,6 @@ struct DesignMatrix {
             sums[l] += double(sparse[k + l].value) * numbers[sparse[k + l].index];
     for (; k < sparse.size(); ++k) sums[0] += double(sparse[k].value) * numbers[sparse[k].index];
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
-[[nodiscard]] inline double logistic(double log_odds) {
-    return 1 / (1 + std::exp(-log_odds));
 }
 
 /// The log odds t at which t + curvature · logistic(t) = target: by Newton's method between two bounds.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ism/core/logistic.hpp"
 #include "ism/model/calibration.hpp"
 #include "ism/train/balanced_folds.hpp"
 #include "ism/train/fit_box_classifier.hpp"
@@ -37,8 +38,7 @@ struct ScoredExample {
         for (const ScoredExample& e : examples) {
             if (!(e.score > 0)) continue;
             const double z = at.slope * std::log(e.score) + at.offset, target = e.positive ? high : low;
-            sum +=
-                z >= 0 ? (1 - target) * z + std::log1p(std::exp(-z)) : -target * z + std::log1p(std::exp(z));
+            sum += softplus(z) - target * z;
         }
         return sum;
     };
@@ -48,7 +48,7 @@ struct ScoredExample {
         for (const ScoredExample& e : examples) {
             if (!(e.score > 0)) continue;
             const double x = std::log(e.score), z = curve.slope * x + curve.offset;
-            const double p = 1 / (1 + std::exp(-z)), error = p - (e.positive ? high : low), w = p * (1 - p);
+            const double p = logistic(z), error = p - (e.positive ? high : low), w = p * (1 - p);
             ga += error * x, gb += error;
             haa += w * x * x, hab += w * x, hbb += w;
         }

@@ -15,6 +15,7 @@
 #include "ism/codebook/match_nearest.hpp"
 #include "ism/codebook/word_index.hpp"
 #include "ism/core/error.hpp"
+#include "ism/core/logistic.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/region_mask.hpp"
 #include "ism/core/thread_pool.hpp"
@@ -171,8 +172,7 @@ inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
                 x[k] = k + 1 < n ? (double(cues[i][k]) - judge.mean[k]) / judge.deviation[k] : 1;
                 z += w[k] * x[k];
             }
-            const double p = 1 / (1 + std::exp(-z)), error = cost * (p - right[i]),
-                         weight = cost * p * (1 - p);
+            const double p = logistic(z), error = cost * (p - right[i]), weight = cost * p * (1 - p);
             for (std::size_t a = 0; a < n; ++a) {
                 gradient[a] += error * x[a];
                 for (std::size_t b = 0; b <= a; ++b) hessian[a][b] += weight * x[a] * x[b];
