@@ -329,6 +329,7 @@ void run_detect(const DetectCommand& command) {
     Overlays overlays;
     if (command.show) overlays.beside = overlay_files(list.images());
     const DetectInput input = read_detect_input(command, list);
+    check_not_labels(input.dataset, std::array{command.results, command.json, command.report});
     add_overlays(overlays, command, input);
 
     const Stopwatch search_watch;

@@ -20,6 +20,12 @@ std::uint32_t index_of(const std::vector<std::string>& names, const std::string&
     return std::uint32_t(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+/// Without crowds.
+std::ptrdiff_t labelled_objects(const ism::DatasetImage& image) {
+    return std::count_if(image.objects.begin(), image.objects.end(),
+                         [](const ism::DatasetAnnotation& object) { return !object.crowd; });
+}
+
 /// How well each class was found, and the curves.
 ism::ReportSection figures_section(const ism::Dataset& dataset, std::span<const ism::Result> results,
                                    const std::vector<std::string>& names) {
@@ -122,17 +128,24 @@ ism::Report DetectPage::report(std::string title,
         ism::ReportGallery gallery;
         std::size_t missed = 0, wrong = 0;
         for (const Mistakes& one : mistakes_) missed += one.missed.size(), wrong += one.wrong.size();
-        for (const ism::DetectionPages& page : pages_)
-            for (const ism::ReportFigure& figure : page.mistakes)
-                if (gallery.figures.size() < most_mistakes) gallery.figures.push_back(figure);
+        std::vector<std::pair<double, const ism::ReportFigure*>>
+            shown;  // missed objects first, as weights are
+        for (std::size_t k = 0; k < pages_.size(); ++k)
+            for (std::size_t m = 0; m < pages_[k].mistakes.size(); ++m)
+                shown.emplace_back(mistakes_[images_[k]].weights[m], &pages_[k].mistakes[m]);
+        std::stable_sort(shown.begin(), shown.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        for (std::size_t m = 0; m < std::min(most_mistakes, shown.size()); ++m)
+            gallery.figures.push_back(*shown[m].second);
         ism::ReportSection section{.title =
                                        ism::join_text("Mistakes: ", missed, " missed, ", wrong, " wrong")};
         if (gallery.figures.empty())
             section.parts.push_back(
                 ism::ReportText{"None: every labelled object was found, and nothing else."});
         if (gallery.figures.size() < missed + wrong)
-            section.parts.push_back(
-                ism::ReportText{ism::join_text("The worst ", gallery.figures.size(), ":")});
+            section.parts.push_back(ism::ReportText{
+                ism::join_text("The worst ", gallery.figures.size(),
+                               pages_.size() < results_.size() ? " in the images shown:" : ":")});
         section.parts.push_back(std::move(gallery));
         report.sections.push_back(std::move(section));
         std::vector<ism::Result> all;
@@ -148,7 +161,7 @@ ism::Report DetectPage::report(std::string title,
             ism::ReportSection others{.title = "All images in words", .folded = true};
             ism::ReportTable table{.header = {"image", "labelled", "found", "mistakes"}};
             for (std::size_t i = 0; i < std::min(results_.size(), most_named); ++i)
-                table.rows.push_back({image_names_[i], std::to_string(dataset_.images[i].objects.size()),
+                table.rows.push_back({image_names_[i], std::to_string(labelled_objects(dataset_.images[i])),
                                       std::to_string(results_[i].size()),
                                       labelled ? mistakes_[i].text() : ""});
             others.parts.push_back(std::move(table));

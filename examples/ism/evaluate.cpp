@@ -66,6 +66,7 @@ void run_evaluate(const EvaluateCommand& command) {
     ism::expect(command.plot.empty() || command.plot.lexically_normal() != command.json.lexically_normal(),
                 "--plot", "another file than --json", "the same");
     const ism::Dataset dataset = read_data(command.data, ism::DatasetPart::test, command.skip_bad);
+    check_not_labels(dataset, std::array{command.json, command.plot});
     std::vector<ism::Result> results = read_detections(command.detections);
     leave_out_unknown(dataset, results);
     const auto tell = [&](const auto& evaluation) {

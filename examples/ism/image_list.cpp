@@ -73,7 +73,7 @@ ImageList::ImageList(std::span<const std::string> arguments) {
 
 ImageList::~ImageList() {
     std::error_code ignored;
-    if (!temporary_.empty()) fs::remove(temporary_, ignored);
+    if (!temporary_.empty()) fs::remove_all(temporary_.parent_path(), ignored);
 }
 
 std::string ImageList::told(std::string message) const {
@@ -106,9 +106,11 @@ void ImageList::add_standard_input() {
     ism::expect<ism::FileError>(!bytes.empty(), place, "an image", "nothing");
     std::random_device device;
     temporary_ = fs::temp_directory_path() /
-                 ism::join_text("ism-", ism::hex_text(device(), 8), ism::hex_text(device(), 8));
+                 ism::join_text("ism-", ism::hex_text(device(), 8), ism::hex_text(device(), 8)) /
+                 "stdin";  // after which overlays are named
+    fs::create_directory(temporary_.parent_path());
+    fs::permissions(temporary_.parent_path(), fs::perms::owner_all);  // nobody else's business
     ism::write_file(temporary_, std::span<const std::uint8_t>(bytes));
-    fs::permissions(temporary_, fs::perms::owner_read | fs::perms::owner_write);  // nobody else's business
     images_.push_back({temporary_, standard_input});
 }
 

@@ -22,6 +22,7 @@ void run_info(const InfoCommand& command) {
     if (!command.report.empty()) {
         std::optional<ism::Dataset> data;
         if (!command.data.empty()) data = read_data(command.data, ism::DatasetPart::train, true);
+        if (data) check_not_labels(*data, std::array{command.report});
         write_page(
             command.report,
             model_report(model, "Model " + ism::path_to_utf8(path.filename()), data ? &*data : nullptr),

@@ -106,6 +106,8 @@ void check_output(const fs::path& file, std::span<const fs::path> inputs) {
     for (const fs::path& input : inputs)
         if (!input.empty() && fs::equivalent(file, input, failure) && !failure)
             throw ism::FileError(text + ": expected another file than an input, got one");
+    if (ism::detail::is_image_name(file) && fs::exists(file, failure))
+        throw ism::FileError(text + ": expected a file to write that is no picture, got one");
     if (fs::exists(file, failure) && !fs::is_regular_file(file, failure)) return;
     ism::detail::check_replaceable(file);
     const fs::path folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
@@ -121,6 +123,16 @@ void check_output(const fs::path& file, std::span<const fs::path> inputs) {
         throw ism::FileError(text + ": expected a folder that can be written to, got one that cannot");
     }
     fs::remove(probe, failure);
+}
+
+void check_not_labels(const ism::Dataset& dataset, std::span<const fs::path> outputs) {
+    std::error_code failure;
+    for (const fs::path& output : outputs)
+        for (const ism::DatasetImage& image : dataset.images)
+            if (!output.empty() && !image.label_file.empty() &&
+                fs::equivalent(output, image.label_file, failure) && !failure)
+                throw ism::FileError(ism::file_text(output) +
+                                     ": expected another file than the labels of an image, got these");
 }
 
 void make_folder(const fs::path& folder) {

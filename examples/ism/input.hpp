@@ -61,8 +61,11 @@ std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
                          const std::function<void(ism::DatasetImage&)>& read);
 
 /// Throws ism::FileError unless a file can be written there: its folder exists and can be written to, and the
-/// file is none of `inputs`.
+/// file is none of `inputs` and no picture but one of the program's own (NAME.ism.png).
 void check_output(const std::filesystem::path& file, std::span<const std::filesystem::path> inputs);
+
+/// Throws ism::FileError where an output is the labels of an image.
+void check_not_labels(const ism::Dataset& dataset, std::span<const std::filesystem::path> outputs);
 
 /// Makes a folder where there is none yet, and throws ism::FileError unless files can be written there.
 void make_folder(const std::filesystem::path& folder);

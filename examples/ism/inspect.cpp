@@ -87,13 +87,15 @@ std::vector<std::vector<Example>> by_class(const ism::Dataset& dataset, const Co
     return examples;
 }
 
-/// The least, the middle and the largest of some numbers: "20 – 45 – 90".
-std::string spread_text(std::vector<double> values, int digits) {
+/// The least, the middle and the largest of some numbers: "2.5 … 45 … 1200".
+std::string spread_text(std::vector<double> values) {
     if (values.empty()) return ism::number_text(NAN);
     std::sort(values.begin(), values.end());
-    return ism::join_text(ism::number_text(values.front(), digits), " … ",
-                          ism::number_text(values[values.size() / 2], digits), " … ",
-                          ism::number_text(values.back(), digits));
+    const auto text = [](double value) {
+        return value < 100 ? ism::number_text(value, 3) : ism::fixed_text(value, 0);
+    };
+    return ism::join_text(text(values.front()), " … ", text(values[values.size() / 2]), " … ",
+                          text(values.back()));
 }
 
 std::vector<std::vector<std::string>> class_table(const ism::Dataset& dataset,
@@ -111,11 +113,11 @@ std::vector<std::vector<std::string>> class_table(const ism::Dataset& dataset,
             sizes.push_back(one.facts.size_px), masks += one.facts.masked, share += one.facts.depth_share;
             if (ism::is_depth(one.facts.depth_m)) distances.push_back(one.facts.depth_m);
         }
-        rows.push_back({dataset.class_names[c], std::to_string(examples[c].size()),
-                        std::to_string(images.size()), std::to_string(masks), spread_text(sizes, 3)});
+        rows.push_back({ism::one_line(dataset.class_names[c]), std::to_string(examples[c].size()),
+                        std::to_string(images.size()), std::to_string(masks), spread_text(sizes)});
         if (depth)
             rows.back().insert(rows.back().end(),
-                               {spread_text(distances, 3),
+                               {spread_text(distances),
                                 examples[c].empty() ? ism::number_text(NAN)
                                                     : ism::percent_text(share / double(examples[c].size()))});
     }
@@ -258,6 +260,7 @@ void run_inspect(const InspectCommand& command) {
     if (!command.report.empty()) check_output(command.report, std::array{command.data});
     ism::Faults faults;
     const ism::Dataset dataset = read_labels(command.data, ism::DatasetPart::train, faults);
+    check_not_labels(dataset, std::array{command.report});
     Contents contents = look(dataset, command.threads);
     constexpr std::size_t most_faults = 20;
     for (std::size_t i = 0; i < std::min(most_faults, faults.size()); ++i)
@@ -267,12 +270,13 @@ void run_inspect(const InspectCommand& command) {
             ism::join_text("... and ", faults.size() - most_faults, " more labels that cannot be used"));
     const auto examples = by_class(dataset, contents);
 
-    std::size_t objects = 0, background = 0, with_depth = 0, with_camera = 0;
+    std::size_t objects = 0, background = 0, crowds = 0, with_depth = 0, with_camera = 0;
     double depth_share = 0;
     for (std::size_t i = 0; i < dataset.images.size(); ++i) {
         const ism::DatasetImage& image = dataset.images[i];
         objects += contents.images[i].objects.size();
-        background += image.objects.empty();
+        background += ism::ignored_boxes(image).empty() && image.objects.empty();
+        for (const ism::DatasetAnnotation& object : image.objects) crowds += object.crowd;
         with_depth += !image.depth_file.empty(), with_camera += image.camera.has_value();
         depth_share += contents.images[i].depth_share;
     }
@@ -290,7 +294,9 @@ void run_inspect(const InspectCommand& command) {
         {"images", std::to_string(dataset.images.size())},
         {"without objects", std::to_string(background)},
         {"classes", std::to_string(dataset.class_names.size())},
-        {"objects", std::to_string(objects)},
+        {"objects", crowds == 0
+                        ? std::to_string(objects)
+                        : ism::join_text(objects, ", and ", crowds, " crowds or difficult ones, ignored")},
         {"with depth", std::to_string(with_depth)}};
     if (with_depth > 0) {
         summary.emplace_back("with camera", std::to_string(with_camera));

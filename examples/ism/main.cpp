@@ -45,14 +45,15 @@ constexpr const char* data_text =
     "folder of "
     "images a class";
 
-void add_report_images(CLI::App& app, program::PageOptions& page) {
+void add_report_images(CLI::App& app, CLI::Option* report, program::PageOptions& page) {
     only(app.add_option_function<std::string>(
              "--report-images", [&page](const std::string& kind) { page.link = kind == "link"; },
              "embed: the pictures are in the page, which needs no other file; link: they are files in a "
              "folder "
              "beside it, sharper"),
          {"embed", "link"})
-        ->default_str("embed");
+        ->default_str("embed")
+        ->needs(report);
 }
 
 void add_train(CLI::App& parent, program::TrainCommand& command) {
@@ -97,7 +98,7 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
          {"occurrences", "gain", "agreement"})
         ->capture_default_str();
     add_number(app, "--max-features", command.options.features.max_features, {1, 1e9, "1 or more"},
-               "features on all objects together; of more each object gives its strongest, at least 30");
+               "features on all objects together: each gives as many, its strongest, and at least 30");
     add_number(app, "--max-cluster-features", command.options.codebook.max_features, {2, 1e9, "2 or more"},
                "of more features a random part is clustered; all are matched");
     app.add_flag_callback(
@@ -154,9 +155,9 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
         add_number(app, "--depth-scale", command.depth_scale, {1e-9, 1e3, "above 0, at most 1000"},
                    "metres per unit of --depth; 0.001 for millimetres")
             ->default_str("");
-    app.add_option("--depth", command.depth, "depth of the one image, 16-bit PNG")
-        ->needs(images)
-        ->needs(scale);
+    scale->needs(app.add_option("--depth", command.depth, "depth of the one image, 16-bit PNG")
+                     ->needs(images)
+                     ->needs(scale));
     app.add_option_function<std::string>(
            "--camera",
            [&command](const std::string& text) { command.camera = program::parse_camera("--camera", text); },
@@ -218,8 +219,7 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
                "look at each image turned by so many angles: finds objects that lie turned by a model that "
                "knows them upright; 24 for any angle, which takes 24 times as long");
     app.add_option("--overlay", command.overlay_folder, "folder for pictures of what was found and why");
-    app.add_option("--report", command.report, "HTML page to write");
-    add_report_images(app, command.page);
+    add_report_images(app, app.add_option("--report", command.report, "HTML page to write"), command.page);
     add_threads(app, command.threads);
     add_skip_bad(app, command.skip_bad);
     app.callback([&command, data, images] {
@@ -258,9 +258,9 @@ void add_evaluate(CLI::App& parent, program::EvaluateCommand& command) {
     app.callback([&command, iou, plot] {
         for (const CLI::Option* other : {iou, plot})
             ism::expect(!command.coco || other->count() == 0, "--rule coco",
-                        ism::lazy_text("no ", other->get_name()), "both");
+                        ism::lazy_text("no ", other->get_name()), "one");
         ism::expect(command.options.rule == ism::EvaluateOptions::Rule::iou || iou->count() == 0,
-                    "--rule uiuc", "no --iou", "both");
+                    "--rule uiuc", "no --iou", "one");
         program::run_evaluate(command);
     });
 }
@@ -278,8 +278,9 @@ void add_inspect(CLI::App& parent, program::InspectCommand& command) {
     CLI::App& app = *parent.add_subcommand(
         "inspect", "tell what is in a data set before it is learnt from, and what looks wrong");
     app.add_option("--data", command.data, data_text)->required();
-    app.add_option("--report", command.report, "HTML page to write, with examples of each class");
-    add_report_images(app, command.page);
+    add_report_images(
+        app, app.add_option("--report", command.report, "HTML page to write, with examples of each class"),
+        command.page);
     add_threads(app, command.threads);
     app.callback([&command] { program::run_inspect(command); });
 }
@@ -293,7 +294,7 @@ void add_info(CLI::App& parent, program::InfoCommand& command) {
                    "the labelled images it was learnt from, so that the page shows words as they "
                    "were seen")
         ->needs(report);
-    add_report_images(app, command.page);
+    add_report_images(app, report, command.page);
     app.callback([&command] { program::run_info(command); });
 }
 

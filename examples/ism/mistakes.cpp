@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include "input.hpp"
 
@@ -39,13 +40,16 @@ std::vector<Mistakes> find_mistakes(const ism::Dataset& dataset,
         if (!std::isnan(results[f].probability))
             text += ism::join_text(" ", std::lround(100 * results[f].probability), " %");
         here.wrong.push_back(std::move(text));
-        here.weight += std::isnan(results[f].probability) ? 0.1 : results[f].probability;
+        here.weights.push_back(std::isnan(results[f].probability) ? 0.1 : results[f].probability);
     }
     for (std::size_t t = 0; t < truth.size(); ++t) {
         if (seen[t] || truth[t].ignore) continue;
         mistakes[truth[t].image].missed_objects.push_back(labels.where[t].second);
         mistakes[truth[t].image].missed.push_back(dataset.class_names[truth[t].class_index]);
-        mistakes[truth[t].image].weight += 1;
+    }
+    for (Mistakes& here : mistakes) {
+        here.weights.insert(here.weights.begin(), here.missed.size(), 1.0);
+        here.weight = std::accumulate(here.weights.begin(), here.weights.end(), 0.0);
     }
     return mistakes;
 }

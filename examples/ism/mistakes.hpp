@@ -17,7 +17,8 @@ struct Mistakes {
     std::vector<std::string> missed = {}, wrong = {};  ///< classes, and of wrong detections how probable
     std::vector<std::size_t> missed_objects = {};      ///< the same as indices into the image's objects
     std::vector<bool> wrong_results = {};              ///< of each result
-    double weight = 0;  ///< 1 for each object missed, and the probabilities of what is wrong
+    std::vector<double> weights = {};  ///< 1 of each object missed, then how probable what is wrong is
+    double weight = 0;                 ///< the sum
 
     /// "missed: cow; wrong: horse 62 %", or nothing.
     [[nodiscard]] std::string text() const;

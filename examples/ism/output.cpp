@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <set>
+#include <system_error>
 
+#include "ism/io/paths.hpp"
 #include "ism/io/png.hpp"
 #include "ism/show/overlay.hpp"
 
@@ -38,10 +40,15 @@ ism::Font overlay_font(std::span<const std::string> class_names) {
 }
 
 OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset) : folder_(std::move(folder)) {
-    std::set<fs::path> inputs;
-    for (const ism::DatasetImage& image : dataset.images)
-        for (const fs::path& file : {image.file, image.depth_file})
-            if (!file.empty()) inputs.insert(fs::weakly_canonical(file));
+    std::error_code failure;
+    for (const ism::DatasetImage& image : dataset.images) {
+        const fs::path beside = image.file.parent_path();
+        if (fs::equivalent(folder_, beside.empty() ? "." : beside, failure) && !failure)
+            throw ism::FileError(
+                "folder '" + ism::one_line(folder_.string()) +
+                "': expected another folder for overlays than that of the images, got that of " +
+                ism::file_text(image.file));
+    }
     std::set<std::string> taken;
     for (const ism::DatasetImage& image : dataset.images) {
         const std::string base = image.file.stem().string();
@@ -52,9 +59,6 @@ OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset) : folde
         };
         for (int number = 2; is_taken(); ++number) stem = ism::join_text(base, "-", number);
         for (const std::string& file : files_of(stem)) {
-            if (inputs.contains(fs::weakly_canonical(folder_ / file)))
-                throw ism::FileError(ism::file_text(folder_ / file) +
-                                     ": expected another folder for overlays than that of the images");
             taken.insert(file);
         }
         stems_.push_back(std::move(stem));

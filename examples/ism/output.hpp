@@ -25,7 +25,7 @@ public:
 
     /// Chooses file names in `folder` that are all different: the image's name without its ending, with a
     /// number where that is taken.
-    /// @throws ism::FileError where a name is that of an image of the data set.
+    /// @throws ism::FileError where it is the folder of an image of the data set.
     OverlayFiles(std::filesystem::path folder, const ism::Dataset& dataset);
 
     /// Writes those of image i.

@@ -93,7 +93,8 @@ ism::Detections find_in(ism::Scene scene, const SearchOptions& search) {
         recognition.verifier.max_inside = 1;
     }
     recognition.options.min_probability = min_probability(search, scene.model);
-    recognition.options.min_relative_score = search.keep.value_or(recognition.options.min_relative_score);
+    double& least = recognition.options.min_relative_score;
+    if (search.keep) least = templates ? std::min(least, *search.keep) : *search.keep;
     return ism::recognise(std::move(scene), recognition);
 }
 
@@ -120,8 +121,9 @@ ism::Detections find_in_metres(ism::Scene scene, const SearchOptions& search) {
     }
     auto recognition = ism::metric_recognition();
     recognition.options.min_probability = search.min_score.value_or(default_min_score);
-    recognition.options.min_relative_score = search.keep.value_or(recognition.options.min_relative_score);
     recognition.verifier.second_choices = recognition.options.min_probability == 0;
+    double& least = recognition.options.min_relative_score;
+    least = std::min(least, search.keep.value_or(least));
     return ism::recognise(std::move(scene), recognition);
 }
 
@@ -150,11 +152,21 @@ ism::Detections Matcher::find(const ism::Frame& frame, const SearchOptions& sear
     const auto find_in_frame = [&](const ism::Frame& shown) {
         return find_objects(scene(shown, search.space), search);
     };
-    if (search.turns == 1) return find_in_frame(frame);
     const ism::Model& model = matcher_.model();
-    return ism::detect_turned(
-        frame, {.turns = search.turns, .min_probability = min_probability(search, model)}, find_in_frame,
-        with_templates(search, model) ? model.template_calibration : ism::Calibration{});
+    ism::Detections found =
+        search.turns == 1
+            ? find_in_frame(frame)
+            : ism::detect_turned(
+                  frame, {.turns = search.turns, .min_probability = min_probability(search, model)},
+                  find_in_frame,
+                  with_templates(search, model) ? model.template_calibration : ism::Calibration{});
+    // which is the best is known at last: votes are unsure of what templates and masks are sure of
+    double best = 0;
+    for (const ism::Detection& object : found.objects) best = std::max(best, object.score);
+    std::erase_if(found.objects, [&](const ism::Detection& object) {
+        return object.score < search.keep.value_or(0) * best;
+    });
+    return found;
 }
 
 bool learnt_probabilities(const ism::Model& model) {

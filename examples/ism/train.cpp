@@ -87,7 +87,7 @@ std::string lessons_text(const ism::ShapeModel& shapes) {
     for (const ism::TrainingObject& object : shapes.objects) ++objects[object.class_index];
     std::vector<std::string> lessons;
     for (std::size_t c = 0; c < objects.size(); ++c)
-        lessons.push_back(ism::join_text(shapes.class_names[c], " (", objects[c],
+        lessons.push_back(ism::join_text(ism::one_line(shapes.class_names[c]), " (", objects[c],
                                          objects[c] == 1 ? " object)" : " objects)"));
     return list_text(lessons);
 }
@@ -97,6 +97,21 @@ std::string text_of(const ism::SharedFeatures& shared) {
     if (!shared.conclusive()) return " (training objects share too few features to tell)";
     return ism::join_text(" (", std::lround(100 * shared.upright_share()), " % of ", shared.count,
                           " features that training objects share have one side up; 17 % by chance)");
+}
+
+/// Leaves out classes that are listed, as exports do, and that nothing shows.
+void leave_out_unused(ism::Dataset& dataset) {
+    std::vector<bool> shown(dataset.class_names.size(), false);
+    for (const ism::DatasetImage& image : dataset.images)
+        for (const ism::DatasetAnnotation& object : image.objects)
+            if (!object.crowd) shown[object.class_index] = true;
+    std::vector<std::string> used, unused;
+    for (std::size_t c = 0; c < shown.size(); ++c)
+        (shown[c] ? used : unused).push_back(dataset.class_names[c]);
+    if (unused.empty() || used.empty()) return;
+    std::fprintf(stderr, "ism: note: left out, since no label is of this class: %s\n",
+                 list_text(unused).c_str());
+    dataset = ism::select_classes(dataset, used);
 }
 
 }  // namespace
@@ -110,9 +125,13 @@ void run_train(const TrainCommand& command) {
     std::optional<Known> known;
     if (!command.add_to.empty()) known = lessons_of(command.add_to, options);
     ism::Dataset dataset = read_data(command.data, ism::DatasetPart::train, command.skip_bad);
+    check_not_labels(dataset, std::array{command.model});
     ism::expect(!dataset.class_names.empty(), ism::file_text(command.data), "labels to learn from",
                 "images without (labels are folders named as classes, or files of COCO, VOC, YOLO, labelme)");
-    if (!command.classes.empty()) dataset = ism::select_classes(dataset, command.classes);
+    if (!command.classes.empty())
+        dataset = ism::select_classes(dataset, command.classes);
+    else
+        leave_out_unused(dataset);
     Doubts doubts;
     const std::size_t skipped =
         check_images(dataset, options.threads, command.skip_bad, [&](const ism::DatasetImage& image) {

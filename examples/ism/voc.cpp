@@ -130,6 +130,7 @@ void add_image(const fs::path& label, std::int64_t id, const Places& places,
         return ism::detail::labelled_image(id, image_of(root, label, places), options,
                                            known ? &labelled : nullptr);
     });
+    image.label_file = label;
     ism::Image<std::uint8_t> numbers;
     const fs::path masks = places.masks / label.stem().concat(".png");
     if (!places.masks.empty() && fs::is_regular_file(masks)) {

@@ -74,6 +74,22 @@ mkdir same
 cp toys/test/test-0000.png same/a.png
 $line "expected another folder for overlays" "$ism" detect --model $model same/a.png -o out --overlay same
 
+# Photos, masks and labels are never written over.
+mkdir -p owned/images owned/labels
+cp same/a.png owned/images/a.png && cp same/a.png owned/images/b.png
+echo "0 .5 .5 .4 .4" >owned/labels/a.txt
+printf '%s\n' car mug duck robot >owned/classes.txt
+cp -r owned kept
+for output in owned/images/a.png owned/images/b.png; do
+    $line "expected a file to write that is no picture" "$ism" train --data owned -o $output
+    $line "expected a file to write that is no picture" "$ism" detect --model $model same/a.png -o $output
+    $line "expected a file to write that is no picture" "$ism" inspect --data owned --report $output
+done
+$line "expected another file than the labels" "$ism" train --data owned -o owned/labels/a.txt
+$line "expected another file than the labels" "$ism" inspect --data owned --report owned/labels/a.txt
+$line "expected another file than the labels" "$ism" detect --model $model --data owned --json owned/labels/a.txt
+diff -r owned kept || fail "inputs were written over"
+
 # Images and depth.
 sed -E 's/"depth_file_name":"[^"]*",//; s/"depth_scale":[0-9.]*,//' toys/test.json >toys/colour.json
 $line "vote space ji3sm1: expected depth_file_name" "$ism" detect --model $model --data toys/colour.json -o out --space ji3sm1
@@ -115,7 +131,7 @@ $line "array of results" "$ism" evaluate --data toys/test.json --detections toys
 $line "file 'lines.json': expected an array of results, as ism detect -o writes it, got an object" \
     "$ism" evaluate --data toys/test.json --detections lines.json
 figures=(evaluate --data toys/test.json --detections toys/detections-jism.json)
-$line "--rule uiuc: expected no --iou, got both" "$ism" "${figures[@]}" --rule uiuc --iou 0.3
+$line "--rule uiuc: expected no --iou, got one" "$ism" "${figures[@]}" --rule uiuc --iou 0.3
 $line "--plot: expected another file than --json, got the same" "$ism" "${figures[@]}" --json out --plot ./out
 $line "--plot: expected a file, got standard output" "$ism" "${figures[@]}" --plot -
 cat toys/detections-jism.json | "$ism" evaluate --data toys/test.json --detections /dev/stdin | grep -q "^mean " ||

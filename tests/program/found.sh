@@ -10,6 +10,12 @@ export TMPDIR=$PWD/temporary
 # The training file has numbers of its own.
 sed -E 's/"category_id":([1-4])/"category_id":\10/g; s/\{"id":([1-4]),"name"/{"id":\10,"name"/g' toys/train.json >toys/tens.json
 "$ism" train --data toys/tens.json -o model --class car --class mug >/dev/null
+# A class that is listed and not shown is left out.
+sed 's/"categories": *\[/&{"id":99,"name":"tin"},/' toys/tens.json >toys/tin.json
+"$ism" train --data toys/tin.json -o with-tin --no-templates >/dev/null 2>tin.txt || fail "a class that nothing shows"
+says "left out, since no label is of this class: tin" tin.txt
+"$ism" train --data toys/tens.json -o without-tin --no-templates >/dev/null
+cmp with-tin without-tin || fail "a class that nothing shows changes the model"
 mkdir photos
 for i in 0 1; do cp toys/test/test-000$i.png photos/$i.png; done
 detect=("$ism" detect --model model)
@@ -32,6 +38,16 @@ cmp lines.txt pattern.txt || fail "a pattern is other than its pictures"
 "${detect[@]}" - <photos/0.png >stdin.txt 2>/dev/null
 cmp <(grep '^photos/0' lines.txt | cut -f 2-) <(cut -f 2- stdin.txt) || fail "standard input is other than its file"
 grep -qvP '^-\t' stdin.txt && fail "standard input is not named -"
+"${detect[@]}" - --overlay drawn <photos/0.png >/dev/null 2>&1
+[[ -s drawn/stdin.png ]] || fail "overlays of standard input: $(ls drawn)"
+# What is kept beside the best is as it was without.
+"${detect[@]}" photos/0.png --min-score 0 >all.txt 2>/dev/null
+(($(wc -l <all.txt) > 1)) || fail "--min-score 0: $(cat all.txt)"
+for keep in .5 1; do
+    "${detect[@]}" photos/0.png --min-score 0 --keep $keep >kept.txt 2>/dev/null
+    cmp <(head -1 all.txt) <(head -1 kept.txt) || fail "--keep $keep: $(cat kept.txt)"
+    (($(wc -l <kept.txt) < $(wc -l <all.txt))) || fail "--keep $keep keeps all"
+done
 "${detect[@]}" photos --show >/dev/null 2>shown.txt
 says "shown in photos/0.ism.png and 1 more" shown.txt
 [[ -s photos/0.ism.png && -s photos/1.ism.png ]] || fail "--show: $(ls photos)"

@@ -37,7 +37,7 @@ says "<svg" pr.svg
 "$ism" evaluate --data toys/test.json --detections found-1 --rule coco --json coco.json >coco.txt
 says "AP50 %" coco.txt
 says '"ap75"' coco.json
-refused_in_a_line "--rule coco: expected no --iou, got both" \
+refused_in_a_line "--rule coco: expected no --iou, got one" \
     "$ism" evaluate --data toys/test.json --detections found-1 --rule coco --iou 0.9
 ! cmp -s figures.txt strict.txt || fail "--iou changes nothing"
 

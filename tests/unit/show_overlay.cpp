@@ -42,6 +42,21 @@ ism::Detections some_detections() {
 
 }  // namespace
 
+TEST_CASE("a label that is wider than its picture loses the end of its first words") {
+    const ism::Font font = ism::system_font({});
+    if (font.empty()) return;
+    using ism::detail::shortened_label;
+    CHECK(shortened_label("car 93", font, 19, 500) == "car 93");
+    const std::string text = "a very long n\u00e4me indeed";
+    for (double most = font.width(text, 19); most > font.width(".. indeed", 19); most -= 1) {
+        const std::string label = shortened_label(text, font, 19, most);
+        CHECK(font.width(label, 19) <= most);
+        CHECK(label.ends_with(" indeed"));
+        CHECK(font.covers(label));  // whole letters
+    }
+    CHECK(shortened_label("none", font, 19, 1) == "..");
+}
+
 TEST_CASE("The four images show votes, both maps on one scale, and the figure untouched") {
     const RgbImage image = some_picture(), large = ism::magnified(image, 2);
     const RgbImage row = ism::draw_explanation(image, some_detections(), 0, both_names, plain_options);

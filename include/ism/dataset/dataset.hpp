@@ -48,6 +48,7 @@ struct DatasetImage {
     std::int64_t id = 0;                    ///< its own in the data set
     std::filesystem::path file;             ///< colour or grey image
     std::filesystem::path depth_file = {};  ///< 16-bit PNG; empty = none
+    std::filesystem::path label_file = {};  ///< of this image alone, a text; empty = none
     int width = 0, height = 0;              ///< pixels
     double depth_scale = 0;                 ///< metres per unit of the depth file
     std::optional<Camera> camera = {};

@@ -65,8 +65,9 @@ inline constexpr std::string_view image_endings[] = {".jpg", ".jpeg", ".png",  "
     for (; !failure && at != std::filesystem::directory_iterator(); at.increment(failure))
         if (!at->path().filename().string().starts_with(".")) entries.insert(at->path());
     if (failure)
-        throw FileError(join_text("folder '", one_line(folder.string()), "': expected a folder to read, got ",
-                                  failure.message()));
+        throw FileError(join_text(
+            "folder '", one_line(folder.string()), "': expected a folder to read, got ",
+            failure == std::errc::no_such_file_or_directory ? "none of this name" : failure.message()));
     return entries;
 }
 

@@ -55,6 +55,7 @@ inline void add_labelme_image(const Json& root, const std::filesystem::path& pat
             int(std::clamp<std::int64_t>(integer_member(root, "imageWidth", file), 0, max_image_side)),
             int(std::clamp<std::int64_t>(integer_member(root, "imageHeight", file), 0, max_image_side))};
     DatasetImage image = labelled_image(id, labelme_image(root, path), options, sized ? &labelled : nullptr);
+    image.label_file = path;
     std::map<std::pair<std::uint32_t, std::string>, std::size_t> group_of;
     std::size_t number = 0;
     for (const Json& record : array_member(root, "shapes", file)) {

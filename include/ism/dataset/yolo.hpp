@@ -79,6 +79,7 @@ namespace detail {
     DatasetImage image = labelled_image(id, file, options);
     const auto labels = yolo_labels(file);
     if (!std::filesystem::exists(labels)) return image;
+    image.label_file = labels;
     for_lines(read_text(labels, 1 << 30), [&](std::string_view line, std::size_t number) {
         const bool read = read_or_tell(options.faults, [&] {
             image.objects.push_back(at_place(join_text(file_text(labels), ", line ", number),

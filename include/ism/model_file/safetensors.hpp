@@ -54,8 +54,8 @@ inline constexpr std::size_t max_header_bytes = std::size_t(1) << 24;
     expect<FileError>(file_bytes >= 8, file.source, "a safetensors file", lazy_text(file_bytes, " bytes"));
     read(&header_bytes, 8);
     expect<FileError>(header_bytes >= 2 && header_bytes <= std::min(max_header_bytes, file_bytes - 8),
-                      lazy_text(file.source, ": header length"),
-                      lazy_text("2 to ", std::min(max_header_bytes, file_bytes - 8)), header_bytes);
+                      file.source, "a safetensors file, as models are",
+                      lazy_text("something else (a header of ", header_bytes, " bytes)"));
     std::string text(std::size_t(header_bytes), ' ');
     read(text.data(), text.size());
     expect<FileError>(text[0] == '{', file.source, "a header that begins with '{'", "another character");

@@ -45,7 +45,10 @@ struct TensorPlace {
     const Json& offsets = array_member(record, "data_offsets", place);
     if (offsets.size() != 2) refuse_json(place, "data_offsets", "begin and end", json_text(offsets));
     result.begin = natural(offsets[0], "data_offsets"), result.end = natural(offsets[1], "data_offsets");
-    if (result.begin > result.end || result.end > data_bytes)
+    if (result.begin <= result.end && result.end > data_bytes)
+        refuse_json(place, "data_offsets", join_text(result.end, " bytes of data"),
+                    join_text(data_bytes, ": the file may be cut off"));
+    if (result.begin > result.end)
         refuse_json(place, "data_offsets", join_text("begin <= end <= ", data_bytes),
                     join_text(result.begin, ", ", result.end));
     if (!shape_fills(result.tensor.shape, result.tensor.type, result.end - result.begin))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,28 @@ namespace ism::detail {
     return std::clamp(side_px / std::max(image.width(), image.height()), 1, 16);
 }
 
-/// How wide lines are, and how high those of words, in an image of this width.
+/// How wide lines are, and how high those of words, in an image of this width: in large ones so that they are
+/// seen where the whole image is looked at.
 [[nodiscard]] inline int pen_px(int width_px) {
-    return width_px >= 320 ? 2 : 1;
+    return width_px >= 320 ? std::max(2, width_px / 500) : 1;
 }
 [[nodiscard]] inline int words_px(int width_px) {
-    return width_px >= 320 ? 19 : 13;
+    return width_px >= 320 ? std::max(19, width_px / 52) : 13;
+}
+
+/// A label that is no wider than `most`, if need be without the end of its first words: what follows the last
+/// space stays.
+[[nodiscard]] inline std::string shortened_label(const std::string& text, const Font& font, double line,
+                                                 double most) {
+    const std::size_t space = std::min(text.rfind(' '), text.size());
+    std::string first = text.substr(0, space), result = text;
+    while (font.width(result, line) > most && !first.empty()) {
+        while (first.size() > 1 && (static_cast<unsigned char>(first.back()) & 0xc0) == 0x80)
+            first.pop_back();
+        first.pop_back();  // a whole letter of UTF-8
+        result = first + ".." + text.substr(space);
+    }
+    return result;
 }
 
 /// Where a point and a box of the image lie in the magnified one.
@@ -48,11 +65,12 @@ namespace ism::detail {
 
 /// Writes a label at a box: above it, or where that place is outside the image or `used` already, inside
 /// its upper edge or below it. Adds the place to `used`.
-inline void draw_label(ImageView<Rgb> image, const Box& box, const std::string& text, Rgb color,
+inline void draw_label(ImageView<Rgb> image, const Box& box, const std::string& whole_text, Rgb color,
                        const Font& font, std::vector<Box>& used) {
-    const double line = words_px(image.width()), width = std::ceil(font.width(text, line)) + line / 2;
-    const double height = line + 1;
     const Box page{0, 0, double(image.width()), double(image.height())};
+    const double line = words_px(image.width());
+    const std::string text = shortened_label(whole_text, font, line, page.width - line / 2 - 1);
+    const double width = std::ceil(font.width(text, line)) + line / 2, height = line + 1;
     const double x = std::clamp(box.x, 0.0, std::max(0.0, page.width - width));
     Box place{x, std::clamp(box.y, 0.0, std::max(0.0, page.height - height)), width, height};
     for (const double y : {box.y - height, box.y, box.y + box.height - height, box.y + box.height}) {
