@@ -41,7 +41,7 @@ string(CONCAT includes ${together})
 file(CONFIGURE OUTPUT "${test_build_dir}/headers/reversed.cpp" CONTENT "${includes}")
 add_library(header_check OBJECT EXCLUDE_FROM_ALL "${test_build_dir}/headers/together.cpp" "${test_build_dir}/headers/reversed.cpp")
 target_link_libraries(header_check PRIVATE ism_dev_options)
-target_compile_options(header_check PRIVATE -O0)
+target_compile_options(header_check PRIVATE -O0 -Wsign-conversion) # beyond what our own code is compiled with
 add_test(NAME headers/together
          COMMAND "${CMAKE_COMMAND}" "-DBUILD=${CMAKE_BINARY_DIR}" -DTARGET=header_check "-DOBJECTS=$<TARGET_OBJECTS:header_check>"
                  "-DNM=${CMAKE_NM}" -P "${test_dir}/headers/check_together.cmake")

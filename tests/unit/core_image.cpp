@@ -41,6 +41,22 @@ TEST_CASE("an image holds its pixels row after row") {
     CHECK(ism::GrayImage().empty());
 }
 
+TEST_CASE("an image that was moved away is empty, and absurd ones are refused") {
+    ism::GrayImage image(3, 2, 0.5f), other(1, 1);
+    const ism::GrayImage moved = std::move(image);
+    CHECK(moved.width() == 3);
+    CHECK(moved.pixels().size() == 6);
+    CHECK(image.width() == 0);  // NOLINT(bugprone-use-after-move)
+    CHECK(image.height() == 0);
+    CHECK(image.view().empty());
+    image = ism::GrayImage(4, 5);
+    other = std::move(image);
+    CHECK(other.height() == 5);
+    CHECK(image.height() == 0);  // NOLINT(bugprone-use-after-move)
+    const int most = std::numeric_limits<int>::max();
+    CHECK_THROWS_WITH(ism::GrayImage(most, most), Catch::Contains("one that memory could hold"));
+}
+
 TEST_CASE("a view of a part of an image looks at the same pixels") {
     auto image = numbered(6, 5);
     const ism::ImageView<float> part = image.view().region(2, 1, 3, 4);

@@ -33,6 +33,13 @@ TruthObject truth_at(double x, std::size_t image = 0, std::uint32_t class_index 
 
 }  // namespace
 
+TEST_CASE("A rule of an absurd threshold is refused") {
+    const std::vector<FoundObject> found;
+    for (const double threshold : {-1.0, 50.0, std::nan("")})
+        CHECK_THROWS_WITH(ism::match({}, found, IouRule{threshold}),
+                          Catch::Contains("IouRule::threshold: expected 0 ... 1"));
+}
+
 TEST_CASE("An IoU of exactly the threshold is right, less is wrong") {
     const IouRule half;
     // a box twice as long as the one inside it: IoU ½

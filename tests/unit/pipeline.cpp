@@ -219,7 +219,10 @@ TEST_CASE("words of two channels of other lengths vote together") {
     REQUIRE(model.channels.size() == 2);
     REQUIRE(model.words() == model.channels[0].codebook.size() + model.channels[1].codebook.size());
     const auto test = pattern_picture(1, 70, 50, 78);
-    ism::FrameDetector detector(model, extractors, 2);
+    const std::vector<ism::AnyExtractor> of_model{
+        {ism::Extractor<ism::HessianLaplace, ism::RootSift>{}, model.channels[0].features},
+        {ism::Extractor<ism::DenseGrid, ism::GrayPatch>{}, model.channels[1].features}};
+    ism::FrameDetector detector(model, of_model, 2);
     const auto found = detector.detect<ism::Jism>(test.frame);
     REQUIRE_FALSE(found.objects.empty());
     CHECK(found.objects[0].class_index == 1);
@@ -233,6 +236,12 @@ TEST_CASE("words of two channels of other lengths vote together") {
                       Catch::Contains("one a channel: expected 2, got 1"));
     CHECK_THROWS_WITH(ism::FrameDetector(model, {extractors[1], extractors[0]}),
                       Catch::Contains("features of the model: expected hessian-laplace, root-sift"));
+    CHECK_THROWS_WITH(ism::FrameDetector(model, extractors),  // training enlarges small objects
+                      Catch::Contains("options of features: expected those of the model"));
+    ism::TrainingFeatures others = features;
+    others.settings[1].options.scale_space.levels_per_octave += 1;
+    CHECK_THROWS_WITH(ism::append(features, others),
+                      Catch::Contains("the same options of detector and descriptor"));
     CHECK_THROWS_WITH((ism::TypedModel<ism::HessianLaplace, ism::RootSift>(model)),
                       Catch::Contains("channels of words: expected 1, got 2"));
 }
@@ -299,6 +308,34 @@ TEST_CASE("wrong frames are refused by name") {
                       Catch::Contains("model: channels of words: expected 1, got 0"));
 }
 
+TEST_CASE("what users build of detection is refused where it makes no sense") {
+    const auto model = trained<ism::RootSift>();
+    const auto test = pattern_picture(1, 70, 50, 78);
+    struct MaskAlone {
+        [[nodiscard]] ism::Segmentation segment(const ism::Detection&, const ism::Scene&) const {
+            ism::Segmentation part;
+            part.mask = ism::Mask(4, 4, 1);
+            return part;
+        }
+    };
+    CHECK_THROWS_WITH(
+        ism::detect(
+            model, test.frame,
+            ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer, MaskAlone, ism::Mdl>{}),
+        Catch::Contains("maps of figure and ground: expected 4x4, got 0x0"));
+    CHECK_THROWS_WITH(ism::detect<ism::Jism>(model, test.frame, {.max_size_px = 1}),
+                      Catch::Contains("DetectOptions::max_size_px: expected 0 or at least"));
+    CHECK_THROWS_WITH(ism::detect<ism::Jism>(model, test.frame, {.max_candidates = 0}),
+                      Catch::Contains("DetectOptions::max_candidates: expected 1 or more, got 0"));
+    ism::Frame frame = test.frame;
+    const ism::Frame taken = std::move(frame);
+    CHECK(frame.gray.width() == 0);  // NOLINT(bugprone-use-after-move)
+    CHECK_THROWS_AS(ism::detect<ism::Jism>(model, frame), ism::Error);
+    CHECK_FALSE(ism::detect<ism::Jism>(model, taken).objects.empty());
+    const ism::TypedModel<ism::HessianLaplace, ism::RootSift> empty;
+    CHECK_THROWS_AS(ism::FrameDetector(empty), ism::Error);
+}
+
 TEST_CASE("wrong training images are refused by name") {
     auto images = training_set();
     const auto train = [&](const ism::TrainOptions& options = {.box_classifier = {}, .calibrate = false}) {
@@ -309,6 +346,12 @@ TEST_CASE("wrong training images are refused by name") {
     CHECK_THROWS_WITH(train({.codebook = {.min_cluster_size = 100000}}),
                       Catch::Contains("at least 100000 features"));
     CHECK_THROWS_WITH(train({.selection = {.min_information_gain = 1}}), Catch::Contains("information gain"));
+    const std::vector<std::string> twice{"first", "first"};
+    CHECK_THROWS_WITH((ism::train<ism::HessianLaplace, ism::RootSift>(twice, images)),
+                      Catch::Contains("names of classes: expected each once, got first"));
+    images[2].objects[0].position_m = ism::Point3{NAN, 0, 1};
+    CHECK_THROWS_WITH(train(), Catch::Contains("picture 2: position of an object"));
+    images[2].objects[0].position_m.reset();
     images[2].objects[0].mask = ism::Mask(5, 5, 1);
     CHECK_THROWS_WITH(train(), Catch::Contains("picture 2: mask size: expected 200x160, got 5x5"));
     images[2].objects[0].mask = ism::Mask(200, 160);

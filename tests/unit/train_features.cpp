@@ -228,6 +228,9 @@ TEST_CASE("training features are kept beside a model and learnt from again") {
     ism::save_model(folder / "without", model);
     CHECK(std::filesystem::file_size(folder / "with") > 2 * std::filesystem::file_size(folder / "without"));
     CHECK(same_model(ism::load_model(folder / "with"), model));
+    const ism::TrainingFeatures none;
+    CHECK_THROWS_AS(ism::save_model(folder / "other", model, &none), ism::FileError);
+    CHECK_FALSE(std::filesystem::exists(folder / "other"));
     CHECK_THROWS_WITH(ism::load_training_features(folder / "without"),
                       Catch::Contains("expected a model with training features"));
 

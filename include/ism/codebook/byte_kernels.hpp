@@ -70,7 +70,8 @@ inline void filter_bytes_avx512_vnni(const ByteTask& task) {
 #pragma GCC unroll 8
             for (std::size_t p = 0; p < parts; ++p) {
                 constexpr int greater = 6;  // not less or equal
-                mask |= std::uint64_t(__builtin_ia32_cmpd512_mask(sum[r][p], limit, greater, -1)) << (16 * p);
+                mask |= std::uint64_t(__builtin_ia32_cmpd512_mask(sum[r][p], limit, greater, 0xffff))
+                        << (16 * p);
             }
             task.masks[i + r] = mask;
         }

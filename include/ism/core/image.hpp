@@ -77,9 +77,21 @@ public:
     using value_type = T;
 
     Image() = default;
+    Image(const Image&) = default;
+    Image& operator=(const Image&) = default;
+    /// @brief Leaves `other` empty.
+    Image(Image&& other) noexcept
+        : width_(std::exchange(other.width_, 0)),
+          height_(std::exchange(other.height_, 0)),
+          pixels_(std::move(other.pixels_)) {}
+    Image& operator=(Image&& other) noexcept {
+        width_ = std::exchange(other.width_, 0), height_ = std::exchange(other.height_, 0);
+        pixels_ = std::move(other.pixels_);
+        return *this;
+    }
 
     /// @brief An image of width × height pixels, all of them `value`.
-    /// @throws Error where a side is negative.
+    /// @throws Error where a side is negative, or both together are absurd.
     Image(int width, int height, T value = {})
         : width_(width), height_(height), pixels_(checked_size(width, height), value) {}
 
@@ -119,7 +131,10 @@ private:
     }
     [[nodiscard]] static std::size_t checked_size(int width, int height) {
         expect(width >= 0 && height >= 0, "image size", "sides of 0 or more", lazy_text(width, "x", height));
-        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        expect(size <= std::vector<T>().max_size(), "image size", "one that memory could hold",
+               lazy_text(width, "x", height));
+        return size;
     }
 
     int width_ = 0;

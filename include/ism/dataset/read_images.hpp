@@ -70,5 +70,6 @@ using PictureReader = Picture (*)(const std::filesystem::path&, std::optional<Im
             .image = [&dataset, read](std::size_t i) { return read_training_image(dataset.images[i], read); },
             .category_ids = dataset.category_ids};
 }
+TrainingSet training_set(Dataset&& dataset, PictureReader read = read_picture) = delete;
 
 }  // namespace ism

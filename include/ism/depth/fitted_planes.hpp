@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -100,7 +99,7 @@ public:
     }
 
 private:
-    using Row = std::array<float, block>;
+    using Row = float[block];
     static constexpr float no_reading = -1e30f;  ///< far from any depth
     static constexpr float no_plane = 1e30f;
 

@@ -22,7 +22,7 @@ public:
     /// @param threads  that work on a frame (0 = all hardware threads)
     template <Detector D, Descriptor Desc>
     explicit FrameDetector(const TypedModel<D, Desc>& model, unsigned threads = 0)
-        : FrameDetector(model, AnyExtractor(model.extractor(), model.channels[0].features), threads) {}
+        : FrameDetector(model, extractor_of(model), threads) {}
     template <Detector D, Descriptor Desc>
     explicit FrameDetector(const TypedModel<D, Desc>&& model, unsigned threads = 0) = delete;
 
@@ -51,6 +51,11 @@ public:
     }
 
 private:
+    template <Detector D, Descriptor Desc>
+    [[nodiscard]] static AnyExtractor extractor_of(const TypedModel<D, Desc>& model) {
+        const Extractor<D, Desc> extractor = model.extractor();  // refuses a model without channels
+        return AnyExtractor(extractor, model.channels[0].features);
+    }
     FrameDetector(const Model& model, const AnyExtractor& extractor, unsigned threads)
         : pool_(threads), matcher_(model, {&extractor, 1}, pool_) {}
 

@@ -42,6 +42,8 @@ inline void check(const DetectOptions& options) {
            "DetectOptions::min_relative_votes", "0 ... 1", options.min_relative_votes);
     expect(options.min_probability >= 0 && options.min_probability <= 1, "DetectOptions::min_probability",
            "0 ... 1", options.min_probability);
+    expect(options.max_candidates > 0, "DetectOptions::max_candidates", "1 or more", 0);
+    expect(options.max_hypotheses > 0, "DetectOptions::max_hypotheses", "1 or more", 0);
     in_range(options.min_size_px, "min_size_px");
     in_range(options.max_size_px, "max_size_px");
     expect(options.max_size_px == 0 || options.max_size_px >= options.min_size_px,

@@ -47,6 +47,14 @@ struct Segmentation {
         {};  ///< where the object lies by what was cut out; none: where it was seen before
 };
 
+/// @brief Validates a segmentation.
+/// @throws Error where a map is of another size than the mask.
+inline void check(const Segmentation& part) {
+    for (const GrayImage* map : {&part.figure, &part.ground})
+        expect(map->width() == part.mask.width() && map->height() == part.mask.height(),
+               "segmentation: maps of figure and ground", size_text(part.mask), size_text(*map));
+}
+
 /// @brief The mask of a segmentation at image resolution; what reaches outside the image is cut off.
 [[nodiscard]] inline Mask whole_mask(const Segmentation& part, int width, int height) {
     Mask whole(width, height);

@@ -69,6 +69,8 @@ public:
                        given.dimension == wanted.dimension,
                    "detection: features of the model", lazy_text(wanted.detector, ", ", wanted.descriptor),
                    lazy_text(given.detector, ", ", given.descriptor));
+            expect(is_same_way(given, wanted), "detection: options of features",
+                   "those of the model (Model::channels)", "others");
             channels_[c] = {extractors[c].start(pool),
                             Shared<const WordIndex>::make(model.channels[c].codebook),
                             static_cast<std::uint32_t>(words), model.channels[c].neighbours};

@@ -199,6 +199,9 @@ template <Kernel K, std::size_t Dimension>
         largest_px = std::max(largest_px, object.size_px);
     }
     const double min_size_px = options.min_size_px > 0 ? options.min_size_px : smallest_px / 2;
+    expect(options.max_size_px == 0 || options.max_size_px >= min_size_px, "DetectOptions::max_size_px",
+           lazy_text("0 or at least ", min_size_px, ", half the smallest training object"),
+           options.max_size_px);
     const double width = scene.frame.gray.width(), height = scene.frame.gray.height();
     const double max_size_px = std::min(options.max_size_px > 0 ? options.max_size_px : largest_px * 2,
                                         std::max(min_size_px, std::hypot(width, height)));

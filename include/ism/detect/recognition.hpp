@@ -82,6 +82,7 @@ template <Rescorer R, Segmenter S, Verifier V>
     const auto segment = [&](std::vector<Detection>& detections) {
         scene.pool.for_each(detections.size(), [&](std::size_t i, unsigned) {
             detections[i].segmentation = segmenter.segment(detections[i], scene);
+            check(detections[i].segmentation);
             if (const std::optional<Box> box = detections[i].segmentation.box)
                 move_to(detections[i], *box, scene.frame.camera);
         });

@@ -66,6 +66,12 @@ struct IouRule {
     }
 };
 
+/// @brief Validates a rule.
+/// @throws Error for a threshold that is out of range.
+inline void check(const IouRule& rule) {
+    expect(rule.threshold >= 0 && rule.threshold <= 1, "IouRule::threshold", "0 ... 1", rule.threshold);
+}
+
 /// @brief The rule of the UIUC car set (Agarwal, Awan, Roth 2004) for boxes of any size: a match where the
 /// detected centre lies in the ellipse around the true centre whose half axes are a quarter of the true
 /// sides.
@@ -120,10 +126,11 @@ inline void check(const FoundObject& found) {
 /// once and further detections of it are false positives. A detection that matches no object but lies in an
 /// ignored one is ignored.
 /// @return one judgement for each detection, in the order given
-/// @throws Error where a score or a box is not finite.
+/// @throws Error where a score or a box is not finite, or the rule's check() refuses it.
 template <MatchRule Rule>
 [[nodiscard]] std::vector<Judgement> match(std::span<const TruthObject> truth,
                                            std::span<const FoundObject> found, const Rule& rule) {
+    if constexpr (requires { check(rule); }) check(rule);
     // objects sorted by image and class, so that those of a detection are found by binary search
     std::vector<std::size_t> sorted(truth.size());
     std::iota(sorted.begin(), sorted.end(), std::size_t{0});

@@ -37,6 +37,15 @@ struct FeatureSettings {
     ExtractOptions options = {};
 };
 
+/// @brief Whether features are found and described alike, but for how many at most.
+[[nodiscard]] inline bool is_same_way(const FeatureSettings& a, const FeatureSettings& b) {
+    return a.detector == b.detector && a.descriptor == b.descriptor && a.dimension == b.dimension &&
+           a.detector_parameters == b.detector_parameters &&
+           a.descriptor_parameters == b.descriptor_parameters &&
+           a.options.scale_space == b.options.scale_space && a.options.upsampling == b.options.upsampling &&
+           a.options.oriented == b.options.oriented;
+}
+
 namespace detail {
 
 /// Stands for any visitor where a concept asks for one.

@@ -16,6 +16,7 @@ struct ScaleSpaceOptions {
     bool double_first_octave = true;  ///< begin with the image at twice its size
     int max_octaves = 16;             ///< at most this many
     int smallest_side = 8;            ///< no octave's shorter side, in its pixels, is below this
+    [[nodiscard]] bool operator==(const ScaleSpaceOptions&) const = default;
 };
 
 inline constexpr int max_scale_octaves = 32;

@@ -222,13 +222,16 @@ inline constexpr std::string_view rgbd_prefix = "rgbd/";
 
 /// @brief Writes a model as a safetensors file, atomically. The same model gives the same bytes.
 /// @param lessons  also keeps the training features, for load_training_features(): more can then be learnt
-/// @throws FileError where the file cannot be written, a name is not UTF-8, or load_model() would refuse it;
-/// nothing is written then.
+/// @throws FileError where the file cannot be written, a name is not UTF-8, or load_model() or
+/// load_training_features() would refuse it; nothing is written then.
 inline void save_model(const std::filesystem::path& path, const Model& model,
                        const TrainingFeatures* lessons = nullptr) {
     TensorFile file = detail::model_to_tensors(model, file_text(path));
-    static_cast<void>(detail::model_from_tensors(file));
-    if (lessons != nullptr) detail::training_to_tensors(*lessons, file);
+    const Model read = detail::model_from_tensors(file);
+    if (lessons != nullptr) {
+        detail::training_to_tensors(*lessons, file);
+        static_cast<void>(detail::training_from_tensors(file, read));
+    }
     write_safetensors(path, file);
 }
 
@@ -248,7 +251,8 @@ template <Detector D, Descriptor Desc>
     return at_place(file_text(path), [&] { return TypedModel<D, Desc>(std::move(model)); });
 }
 
-/// @brief Reads the training features that save_model() kept beside a model: what learn() made it of.
+/// @brief Reads the training features that save_model() kept beside a model: what learn() made it of, but
+/// descriptors of whole images rounded to 8 bits a number.
 /// @throws FileError as load_model() does, and where none were kept.
 [[nodiscard]] inline TrainingFeatures load_training_features(const std::filesystem::path& path) {
     const TensorFile file = detail::open_model(path);

@@ -23,13 +23,6 @@ inline constexpr Rgb for_color{40, 190, 80}, against_color{235, 50, 50};
     return {.color = share > 0 ? for_color : against_color, .opacity = 0.85 * double(std::abs(share) / most)};
 }
 
-/// The sizes of a segmentation's parts, which must be one.
-inline void check_segmentation(const Segmentation& part) {
-    for (const GrayImage* map : {&part.figure, &part.ground})
-        expect(map->width() == part.mask.width() && map->height() == part.mask.height(),
-               "probability map size", size_text(part.mask), size_text(*map));
-}
-
 /// A map of a segmentation as colours over the whole image; `top` is the brightest value.
 template <std::invocable<double> Colors>
 [[nodiscard]] RgbImage map_panel(const Segmentation& part, const GrayImage& map, double top, int width,

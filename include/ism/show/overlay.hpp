@@ -49,7 +49,7 @@ namespace detail {
     const Font nothing;
     const Font& font = options.font ? *options.font : nothing;
     const Segmentation& part = detection.segmentation;
-    detail::check_segmentation(part);
+    check(part);
     const int factor = detail::magnification(image, options.side_px);
     const int width = image.width(), height = image.height();
     const Rgb color = class_color(detection.class_index);

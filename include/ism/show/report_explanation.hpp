@@ -158,7 +158,7 @@ private:
                                                            const Detection& detection) {
     const Detections there = detail::moved_to(detections, detection, int(part.x), int(part.y));
     const Segmentation& cut = there.objects.front().segmentation;
-    detail::check_segmentation(cut);
+    check(cut);
     float top = 0;
     for (const GrayImage* map : {&cut.figure, &cut.ground})
         for (const float value : map->pixels()) top = std::max(top, value);

@@ -58,6 +58,8 @@ namespace detail {
                a.options.upsampling, b.options.upsampling);
         expect(a.options.oriented == b.options.oriented, "training features to append: oriented",
                a.options.oriented, b.options.oriented);
+        expect(is_same_way(a, b), "training features to append",
+               "the same options of detector and descriptor", "others");
     }
     const std::vector<std::uint32_t> class_of = detail::join_names(all.class_names, more.class_names);
     if (all.category_ids.empty() || more.category_ids.empty())

@@ -171,6 +171,10 @@ private:
     const TrainingFeatureOptions& options = {}, unsigned threads = 0, const Progress& progress = {}) {
     const std::size_t classes = class_names.size();
     expect(classes > 0, "training: number of classes", "1 or more", 0);
+    for (std::size_t c = 0; c < classes; ++c)
+        expect(std::find(class_names.begin(), class_names.begin() + std::ptrdiff_t(c), class_names[c]) ==
+                   class_names.begin() + std::ptrdiff_t(c),
+               "training: names of classes", "each once", class_names[c]);
     expect(set.size > 0, "training: number of images", "1 or more", 0);
     expect(!extractors.empty(), "training: number of extractors", "1 or more", 0);
     expect(set.category_ids.empty() || set.category_ids.size() == classes, "training: category ids",

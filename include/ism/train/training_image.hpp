@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -71,8 +72,10 @@ inline void check(const TrainingImage& image, std::size_t classes) {
         check(image.frame);
         for (const LabelledObject& object : image.objects) {
             check(object.label(), classes, gray.width(), gray.height());
-            expect(!object.position_m || object.position_m->z > 0, "position of an object",
-                   "before the camera, z above 0", object.position_m ? object.position_m->z : 0);
+            if (const std::optional<Point3>& at = object.position_m)
+                expect(at->z > 0 && std::abs(at->x) <= 1e6 && std::abs(at->y) <= 1e6 && at->z <= 1e6,
+                       "position of an object", "at most 1e6 m off, and before the camera, z above 0",
+                       lazy_text(at->x, ", ", at->y, ", ", at->z));
             if (object.mask.empty()) continue;
             expect(object.mask.width() == gray.width() && object.mask.height() == gray.height(), "mask size",
                    size_text(gray), size_text(object.mask));
