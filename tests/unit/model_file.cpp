@@ -246,7 +246,16 @@ template <class D, class Desc>
 ism::Extractor<D, Desc> round_trip(const ism::Extractor<D, Desc>& extractor) {
     const TemporaryFolder folder;
     ism::save_model(folder / "m", model_of(extractor));
-    return ism::load_model<D, Desc>(folder / "m").extractor();
+    const auto read = ism::load_model<D, Desc>(folder / "m");
+    ism::FeatureSettings settings = ism::settings_of(extractor);
+    CHECK(ism::is_same_way(settings, read.channels[0].features));
+    settings.options.max_features += 1;
+    CHECK(ism::is_same_way(settings, read.channels[0].features));
+    REQUIRE_FALSE(settings.detector_parameters.empty());
+    ism::Parameter& last = settings.detector_parameters.back();
+    last.real += 1, last.whole = 1 - last.whole;
+    CHECK_FALSE(ism::is_same_way(settings, read.channels[0].features));
+    return read.extractor();
 }
 
 /// The message of loading a model whose file was changed and given a right checksum.

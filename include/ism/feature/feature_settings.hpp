@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -37,11 +39,27 @@ struct FeatureSettings {
     ExtractOptions options = {};
 };
 
+namespace detail {
+
+/// By name and value, in any order, as floats: files tell 2 and 2.0 alike, and .1 for the float next to it.
+[[nodiscard]] inline bool is_same(std::span<const Parameter> a, std::span<const Parameter> b) {
+    const auto value = [](const Parameter& one) {
+        return one.kind == Parameter::Kind::real ? float(one.real) : float(one.whole);
+    };
+    return a.size() == b.size() && std::all_of(a.begin(), a.end(), [&](const Parameter& p) {
+               return std::any_of(b.begin(), b.end(), [&](const Parameter& q) {
+                   return p.name == q.name && value(p) == value(q);
+               });
+           });
+}
+
+}  // namespace detail
+
 /// @brief Whether features are found and described alike, but for how many at most.
 [[nodiscard]] inline bool is_same_way(const FeatureSettings& a, const FeatureSettings& b) {
     return a.detector == b.detector && a.descriptor == b.descriptor && a.dimension == b.dimension &&
-           a.detector_parameters == b.detector_parameters &&
-           a.descriptor_parameters == b.descriptor_parameters &&
+           detail::is_same(a.detector_parameters, b.detector_parameters) &&
+           detail::is_same(a.descriptor_parameters, b.descriptor_parameters) &&
            a.options.scale_space == b.options.scale_space && a.options.upsampling == b.options.upsampling &&
            a.options.oriented == b.options.oriented;
 }
