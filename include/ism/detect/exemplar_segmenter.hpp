@@ -61,8 +61,8 @@ struct ExemplarSegmenter {
     /// placed.
     /// @param colors  FigureColors; may be empty
     [[nodiscard]] Segmentation cut_out(std::span<const std::uint32_t> exemplar_indices,
-                                       std::span<const float> colors, const Box& box,
-                                       const Scene& scene) const;
+                                       std::span<const float> colors, const Box& box, const RgbImage& picture,
+                                       const Model& model) const;
     /// @brief What was cut out speaks for or against detections, see weigh_masks().
     void judge(std::vector<Detection>& detections, const Scene& scene) const {
         weigh_masks(detections, scene.model, scene.pool);
@@ -100,11 +100,12 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     if (of_class.empty() || !(hypothesis.box.area() >= 1)) return votes.segment(hypothesis, scene);
     const std::span<const float> colors = model.figure_colors_of(hypothesis.class_index);
     const Placing placing = model.placing_of(hypothesis.class_index);
+    const FrameColors picture(scene.frame);
     Segmentation part;
     Box box = hypothesis.box;
     for (int cut = 0; cut < cuts; ++cut) {
         part = {};  // given back before there is another
-        part = cut_out(of_class, colors, box, scene);
+        part = cut_out(of_class, colors, box, picture.image(), model);
         box = placing.place(hypothesis.box, cut_out_box(part, hypothesis.box));
     }
     part.box = box;
@@ -113,19 +114,16 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
 
 inline Segmentation ExemplarSegmenter::cut_out(std::span<const std::uint32_t> exemplar_indices,
                                                std::span<const float> colors, const Box& box,
-                                               const Scene& scene) const {
-    const Model& model = scene.model;
-    const FrameColors frame_colors(scene.frame);
-    const RgbImage& color = frame_colors.image();
-    const BoxRegion region(box, margin, color.width(), color.height());
+                                               const RgbImage& picture, const Model& model) const {
+    const BoxRegion region(box, margin, picture.width(), picture.height());
     const ExemplarPrior lenders(model, exemplar_indices,
-                                describe_exemplar(color, box, compared_boxes(box, exemplars)), exemplars);
+                                describe_exemplar(picture, box, compared_boxes(box, exemplars)), exemplars);
 
     // The region in the size that colours are compared at.
     const double zoom = std::min(1.0, double(max_side_px) / std::max(region.width, region.height));
     const int width = std::max(2, int(std::lround(region.width * zoom))),
               height = std::max(2, int(std::lround(region.height * zoom)));
-    const std::vector<float> rgb = region_colors(color, region, width, height);
+    const std::vector<float> rgb = region_colors(picture, region, width, height);
     const ColorBins bins(rgb);
     const std::vector<float> class_odds = figure_color_odds(colors, rgb);
 
@@ -201,7 +199,7 @@ inline Segmentation ExemplarSegmenter::cut_out(std::span<const std::uint32_t> ex
         rows.write(std::size_t(y), row);
         const float* plane = row.data();
         for (int x = 0; x < region.width; ++x, plane += 4) {
-            const Rgb c = color(region.x + x, region.y + y);
+            const Rgb c = picture(region.x + x, region.y + y);
             const float p =
                 std::clamp((plane[0] * c.r + plane[1] * c.g + plane[2] * c.b) / 255 + plane[3], 0.0f, 1.0f);
             result.figure(x, y) = p, result.ground(x, y) = 1 - p;

@@ -10,14 +10,12 @@
 #include <span>
 #include <vector>
 
-#include "ism/core/frame.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/lists.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/exemplar_segmenter.hpp"
 #include "ism/detect/mask_evidence.hpp"
-#include "ism/detect/scene.hpp"
 #include "ism/model/figure_colors.hpp"
 #include "ism/model/model.hpp"
 #include "ism/model/placing.hpp"
@@ -128,13 +126,9 @@ struct CutOuts {
             parallel_for(found.size(), threads, [&](std::size_t i) {
                 auto& [image, placed, mask] = found[i];
                 const std::size_t fold = folds.of_image[image];
-                Frame frame;
-                frame.color = views[image]->pixels;
-                ThreadPool pool(1);
                 const Box box = cut == 0 ? placed.judged : placing.place(placed.judged, placed.mask);
-                const Segmentation part =
-                    segmenter.cut_out(lenders[fold][c], folds.colors_without[fold][c], box,
-                                      Scene{.frame = frame, .model = model, .pool = pool});
+                const Segmentation part = segmenter.cut_out(lenders[fold][c], folds.colors_without[fold][c],
+                                                            box, views[image]->pixels, model);
                 placed.mask = cut_out_box(part, placed.judged);
                 mask = measure_mask(part, placing.place(placed.judged, placed.mask));
             });

@@ -5,20 +5,19 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "ism/core/box_region.hpp"
 #include "ism/core/error.hpp"
-#include "ism/core/frame.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/image.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/detection.hpp"
 #include "ism/detect/exemplar_segmenter.hpp"
-#include "ism/detect/scene.hpp"
 #include "ism/model/describe_exemplar.hpp"
 #include "ism/model/figure_reach.hpp"
 #include "ism/model/mask_exemplar.hpp"
@@ -92,13 +91,10 @@ inline void expect_ellipse(Mask& mask) {
         model.exemplars.push_back({std::uint32_t(model.shapes.objects.size()), lender->cells});
         model.shapes.objects.push_back(objects[lender->object]);
     }
-    const Frame frame{.gray = to_gray(own.view->pixels), .color = own.view->pixels};
-    ThreadPool pool(1);
-    Detection whole;
-    whole.class_index = own.class_index, whole.box = own.box;
-    const ExemplarSegmenter segmenter{.exemplars = {.size_step = 0, .place_step = 0},
-                                      .cuts = 1};  // the box is right
-    const Segmentation part = segmenter.segment(whole, Scene{.frame = frame, .model = model, .pool = pool});
+    std::vector<std::uint32_t> all(lenders.size());
+    std::iota(all.begin(), all.end(), 0u);
+    const ExemplarSegmenter segmenter{.exemplars = {.size_step = 0, .place_step = 0}};  // the box is right
+    const Segmentation part = segmenter.cut_out(all, {}, own.box, own.view->pixels, model);
     Mask mask(objects[own.object].mask.width(), objects[own.object].mask.height());
     for (int y = 0; y < mask.height(); ++y)
         for (int x = 0; x < mask.width(); ++x) {
