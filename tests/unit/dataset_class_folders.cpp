@@ -65,6 +65,7 @@ TEST_CASE("A folder with one folder a class is a data set, with masks beside the
     ism::write_file(folder / "readme.txt", std::string("no image"));
     ism::write_file(folder / "car/.hidden.png", std::string("no image"));
     ism::write_file(folder / "car/1.ism.png", std::string("drawn by the program"));
+    write_image(folder / "__MACOSX/car/1.pgm");  // of an archive
 
     const ism::Dataset dataset = ism::read_any_dataset(folder.path());
     CHECK(dataset.class_names == std::vector<std::string>{"car", "cow"});
@@ -156,11 +157,14 @@ TEST_CASE("Folders that make no sense are refused in a line, single images may b
     ism::write_file(folder / "car/2.heic", std::string("no image"));
     ism::write_file(folder / "car/3.jpg", std::string("\xff\xd8\xff, but no image"));
     write_image(folder / "car/9.pgm");
+    fs::create_directories(folder / "none");
     ism::Faults faults;
     const ism::Dataset left = ism::read_any_dataset(folder.path(), {.faults = &faults});
     REQUIRE(left.images.size() == 2);
     CHECK(left.images[1].id == 4);  // as it would be without the faults before it
-    REQUIRE(faults.size() == 3);
+    CHECK(left.class_names == std::vector<std::string>{"car"});
+    REQUIRE(faults.size() == 4);
+    CHECK(faults[3].ends_with("none': expected images of a class, got none"));
     CHECK(faults[0].ends_with("2.heic': expected a PNG, JPEG, BMP or PNM image, got something else"));
     CHECK(faults[1].ends_with("3.jpg': expected a whole image, got a truncated JPEG"));
     CHECK(faults[2].ends_with("5_mask.png': expected an image beside this mask, got none"));

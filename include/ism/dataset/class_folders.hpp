@@ -89,8 +89,8 @@ namespace detail {
 /// NAME.png beside an image of another format, or the image's own transparency; without a mask the whole
 /// image is the object. Images in a folder named background or negative show no object. Images are
 /// numbered from 1 in the order of their names, classes too.
-/// @throws FileError, naming the file, where there is no image of a class or something else stands among the
-/// folders; and where an image or mask cannot be read, they differ in size, a mask is without an image or
+/// @throws FileError, naming the file, where something else stands among the folders; and where there is no
+/// image of a class, an image or mask cannot be read, they differ in size, a mask is without an image or
 /// figure, and there is no list of faults.
 [[nodiscard]] inline Dataset read_class_folders(const std::filesystem::path& folder,
                                                 const DatasetReadOptions& options = {}) {
@@ -130,8 +130,10 @@ namespace detail {
                         : detail::class_image(id, file, std::uint32_t(dataset.class_names.size()), options));
             });
         }
-        if (images == 0) throw FileError(place + ": expected images of a class, got none");
-        if (!background) dataset.class_names.push_back(name);
+        const bool any = read_or_tell(options.faults, [&] {
+            if (images == 0) throw FileError(place + ": expected images of a class, got none");
+        });
+        if (any && !background) dataset.class_names.push_back(name);
     }
     detail::number(dataset);
     return dataset;

@@ -56,14 +56,16 @@ inline constexpr std::string_view image_endings[] = {".jpg", ".jpeg", ".png",  "
     return std::find(std::begin(image_endings), std::end(image_endings), ending) != std::end(image_endings);
 }
 
-/// @brief What is in a folder, by name; nothing hidden.
+/// @brief What is in a folder, by name; nothing hidden, nor what macOS adds to archives.
 /// @throws FileError where it cannot be read.
 [[nodiscard]] inline std::set<std::filesystem::path> folder_entries(const std::filesystem::path& folder) {
     std::set<std::filesystem::path> entries;
     std::error_code failure;
     std::filesystem::directory_iterator at(folder, failure);
     for (; !failure && at != std::filesystem::directory_iterator(); at.increment(failure))
-        if (!at->path().filename().string().starts_with(".")) entries.insert(at->path());
+        if (const std::string name = at->path().filename().string();
+            !name.starts_with(".") && name != "__MACOSX")
+            entries.insert(at->path());
     if (failure)
         throw FileError(join_text(
             "folder '", one_line(folder.string()), "': expected a folder to read, got ",
