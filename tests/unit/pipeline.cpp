@@ -323,6 +323,19 @@ TEST_CASE("what users build of detection is refused where it makes no sense") {
             model, test.frame,
             ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer, MaskAlone, ism::Mdl>{}),
         Catch::Contains("maps of figure and ground: expected 4x4, got 0x0"));
+    struct First {
+        std::size_t times = 1;
+        [[nodiscard]] bool needs_masks() const { return false; }
+        [[nodiscard]] std::vector<ism::Verified> verify(const std::vector<ism::Detection>& hypotheses,
+                                                        const ism::Scene&) const {
+            return std::vector<ism::Verified>(times, {0, hypotheses.front().score});
+        }
+    };
+    ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer, ism::PatchSegmenter, First> first;
+    CHECK(ism::detect(model, test.frame, first).objects.size() == 1);
+    first.verifier.times = 2;
+    CHECK_THROWS_WITH(ism::detect(model, test.frame, first),
+                      Catch::Contains("verifier: index of a hypothesis: expected one below"));
     CHECK_THROWS_WITH(ism::detect<ism::Jism>(model, test.frame, {.max_size_px = 1}),
                       Catch::Contains("DetectOptions::max_size_px: expected 0 or at least"));
     CHECK_THROWS_WITH(ism::detect<ism::Jism>(model, test.frame, {.max_candidates = 0}),

@@ -100,8 +100,12 @@ template <Rescorer R, Segmenter S, Verifier V>
     Detections result;
     const double least =
         masks_first ? options.min_probability : least_before_masks<S>(options.min_probability);
+    std::vector<bool> taken(hypotheses.size(), false);
     for (const auto& [index, score] : verified) {
         if (score < options.min_relative_score * verified.front().score) break;
+        expect(index < taken.size() && !taken[index], "verifier: index of a hypothesis",
+               lazy_text("one below ", taken.size(), ", each once"), index);
+        taken[index] = true;
         Detection& object = hypotheses[index];
         object.score = score;
         const bool judged = !std::isnan(object.probability);

@@ -36,6 +36,8 @@ namespace ism {
 /// template's margin with what the other cues are worth, see CueWeights; the support are the votes of the
 /// class that agree with the box that was found.
 struct TemplateScore {
+    std::size_t max_classes = asked_classes;  ///< that are asked about a hypothesis, those of most vote
+                                              ///< weight there: as in training, but to see what that brings
     RivalOptions rivals = {};  ///< see yield_to_rivals(); where nothing is calibrated parts are left out
     bool explain = false;      ///< also tell which cells of a template speak for and against
 
@@ -45,6 +47,7 @@ struct TemplateScore {
 /// @brief Validates options.
 /// @throws Error for one out of range.
 inline void check(const TemplateScore& options) {
+    expect(options.max_classes > 0, "TemplateScore::max_classes", "1 or more", 0);
     check(options.rivals);
 }
 
@@ -70,7 +73,7 @@ inline std::vector<Detection> TemplateScore::rescore(std::vector<Detection> hypo
     const DetectOptions options = proposal_options<Jism>();
     const auto votes = cast_votes<Jism>(scene, options.matching, vote_limits(scene, options));
     const VotedBoxes voted(votes, scene.features, model.shapes);
-    const auto asked = asked_proposals(proposals, votes, asked_classes, model.shapes);
+    const auto asked = asked_proposals(proposals, votes, max_classes, model.shapes);
     std::vector<Detection> found;
     std::vector<double> margins;
     CellScratch scratch;
