@@ -98,7 +98,7 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
          {"occurrences", "gain", "agreement"})
         ->capture_default_str();
     add_number(app, "--max-features", command.options.features.max_features, {1, 1e9, "1 or more"},
-               "features on all objects together: each gives as many, its strongest, and at least 30");
+               "features of all objects together: each gives its share, the strongest, and at least 30");
     add_number(app, "--max-cluster-features", command.options.codebook.max_features, {2, 1e9, "2 or more"},
                "of more features a random part is clustered; all are matched");
     app.add_flag_callback(

@@ -46,15 +46,15 @@ TEST_CASE("a label that is wider than its picture loses the end of its first wor
     const ism::Font font = ism::system_font({});
     if (font.empty()) return;
     using ism::detail::shortened_label;
-    CHECK(shortened_label("car 93", font, 19, 500) == "car 93");
-    const std::string text = "a very long n\u00e4me indeed";
-    for (double most = font.width(text, 19); most > font.width(".. indeed", 19); most -= 1) {
-        const std::string label = shortened_label(text, font, 19, most);
+    CHECK(shortened_label("car", " 93 %", font, 19, 500) == "car 93 %");
+    const std::string name = "a very long n\u00e4me", rest = " 93 %";
+    for (double most = font.width(name + rest, 19); most > font.width(".." + rest, 19); most -= 1) {
+        const std::string label = shortened_label(name, rest, font, 19, most);
         CHECK(font.width(label, 19) <= most);
-        CHECK(label.ends_with(" indeed"));
+        CHECK(label.ends_with(rest));
         CHECK(font.covers(label));  // whole letters
     }
-    CHECK(shortened_label("none", font, 19, 1) == "..");
+    CHECK(shortened_label("none", rest, font, 19, 1) == ".." + rest);
 }
 
 TEST_CASE("The four images show votes, both maps on one scale, and the figure untouched") {
@@ -141,11 +141,13 @@ TEST_CASE("All detections are marked in one image, magnified so that labels can 
 TEST_CASE("Labels evade each other while there is room") {
     RgbImage image(400, 300);
     const ism::Font font = ism::system_font(both_names);  // or none: labels without words
+    ism::Detection cup;
+    cup.score = 0.5;
     std::vector<ism::Box> used;
-    for (int i = 0; i < 4; ++i)
-        ism::detail::draw_label(image, {100, 100, 80, 90}, "cup 0.5", {1, 2, 3}, font, used);
-    ism::detail::draw_label(image, {-50, -20, 80, 90}, "cup 0.5", {1, 2, 3}, font, used);
-    REQUIRE(used.size() == 5);
+    for (int i = 0; i < 4; ++i) ism::detail::draw_label(image, {100, 100, 80, 90}, cup, "cup", font, used);
+    ism::detail::draw_label(image, {-50, -20, 80, 90}, cup, "cup", font, used);
+    ism::detail::draw_label(image, {100, 250, 80, 40}, cup, std::string(200, 'm'), font, used);
+    REQUIRE(used.size() == 6);
     for (std::size_t a = 0; a < used.size(); ++a) {
         CHECK(ism::intersection(used[a], {0, 0, 400, 300}).area() == used[a].area());
         for (std::size_t b = 0; b < a; ++b) CHECK(ism::intersection(used[a], used[b]).area() == 0);

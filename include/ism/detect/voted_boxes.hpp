@@ -54,6 +54,7 @@ struct VotedBlock {
     }
     return result;
 }
+/// By how much floats may be off: coordinates by a millionth, beside the shorter side.
 [[nodiscard]] inline double rounding_of_iou(const Box& box) {
     const Point2 centre = box.centre();
     const double rounding_px = 1e-6 * (std::abs(centre.x) + std::abs(centre.y) + box.width + box.height);

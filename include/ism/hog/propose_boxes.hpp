@@ -34,15 +34,14 @@ struct ProposedBox {
     Box box;
 };
 
-/// @brief Boxes of a class in an image that are searched, at least and in training as
-/// in detection.
+/// @brief Boxes of a class that are searched in an image, at least: in training as in detection.
 inline constexpr std::size_t searched_boxes = 12;
 
 /// @brief Hypotheses of an image that are asked about, at most.
 inline constexpr std::size_t most_proposals = 5000;
 
-/// @brief How many boxes of a class are searched in an image: `least`, or a tenth of the hypotheses whose
-/// votes speak for it where that is more, since a wide picture has more places for it.
+/// @brief How many boxes of a class are searched in an image: searched_boxes, or a tenth of the hypotheses
+/// whose votes speak for it where that is more, since a wide picture has more places for it.
 [[nodiscard]] inline std::size_t boxes_to_search(std::span<const ProposedBox> proposals,
                                                  std::uint32_t class_index) {
     const auto own = std::count_if(proposals.begin(), proposals.end(), [&](const ProposedBox& proposal) {

@@ -14,13 +14,23 @@
 
 namespace ism::detail {
 
-/// "cup 83 %", how probable it is; or, where that is not known, its score, "cup 0.412"
-[[nodiscard]] inline std::string label_text(const Detection& detection, std::span<const std::string> names) {
+/// The probability of a detection in percent, or where it is not known its score.
+[[nodiscard]] inline std::string confidence_text(const Detection& detection) {
+    return std::isnan(detection.probability) ? number_text(detection.score, 3)
+                                             : number_text(std::round(100 * detection.probability)) + " %";
+}
+
+/// @throws Error where the class of a detection has no name.
+[[nodiscard]] inline const std::string& name_of(const Detection& detection,
+                                                std::span<const std::string> names) {
     expect(detection.class_index < names.size(), "class of a detection", lazy_text("below ", names.size()),
            detection.class_index);
-    return names[detection.class_index] + " " +
-           (std::isnan(detection.probability) ? number_text(detection.score, 3)
-                                              : number_text(std::round(100 * detection.probability)) + " %");
+    return names[detection.class_index];
+}
+
+/// "cup 83 %", how probable it is; or, where that is not known, its score, "cup 0.412"
+[[nodiscard]] inline std::string label_text(const Detection& detection, std::span<const std::string> names) {
+    return name_of(detection, names) + " " + confidence_text(detection);
 }
 
 /// What a feature adds to a detection, all its votes together.

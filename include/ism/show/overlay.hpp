@@ -62,8 +62,8 @@ namespace detail {
     detail::draw_support(votes, detections, detection, color, options.circle_scales, factor);
     draw_box(votes, box, {color, pen});
     std::vector<Box> used;
-    const std::string label = detail::label_text(detection, class_names);
-    if (!font.empty()) detail::draw_label(votes, box, label, color, font, used);
+    const std::string& name = detail::name_of(detection, class_names);
+    if (!font.empty()) detail::draw_label(votes, box, detection, name, font, used);
 
     float top = 0;
     for (const GrayImage* map : {&part.figure, &part.ground})
@@ -142,10 +142,10 @@ namespace detail {
     }
     std::vector<Box> used;
     for (const Detection& detection : detections.objects) {
-        const std::string label = detail::label_text(detection, class_names);
+        const std::string& name = detail::name_of(detection, class_names);
         if (options.font)
-            detail::draw_label(result, detail::magnified(detection.box, factor), label,
-                               class_color(detection.class_index), *options.font, used);
+            detail::draw_label(result, detail::magnified(detection.box, factor), detection, name,
+                               *options.font, used);
     }
     return result;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -34,19 +33,19 @@ namespace ism::detail {
     return width_px >= 320 ? std::max(19, width_px / 52) : 13;
 }
 
-/// A label that is no wider than `most`, if need be without the end of its first words: what follows the last
-/// space stays.
-[[nodiscard]] inline std::string shortened_label(const std::string& text, const Font& font, double line,
-                                                 double most) {
-    const std::size_t space = std::min(text.rfind(' '), text.size());
-    std::string first = text.substr(0, space), result = text;
-    while (font.width(result, line) > most && !first.empty()) {
-        while (first.size() > 1 && (static_cast<unsigned char>(first.back()) & 0xc0) == 0x80)
-            first.pop_back();
-        first.pop_back();  // a whole letter of UTF-8
-        result = first + ".." + text.substr(space);
+/// A name and what follows it, no wider than `most`: if need be without the end of the name.
+[[nodiscard]] inline std::string shortened_label(std::string name, const std::string& rest, const Font& font,
+                                                 double line, double most) {
+    std::string label = name + rest;
+    while (font.width(label, line) > most && !name.empty()) {
+        const auto within_letter = [](char byte) {
+            return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
+        };
+        while (name.size() > 1 && within_letter(name.back())) name.pop_back();
+        name.pop_back();  // a whole letter of UTF-8
+        label = name + ".." + rest;
     }
-    return result;
+    return label;
 }
 
 /// Where a point and a box of the image lie in the magnified one.
@@ -63,15 +62,16 @@ namespace ism::detail {
     return large;
 }
 
-/// Writes a label at a box: above it, or where that place is outside the image or `used` already, inside
-/// its upper edge or below it. Adds the place to `used`.
-inline void draw_label(ImageView<Rgb> image, const Box& box, const std::string& whole_text, Rgb color,
-                       const Font& font, std::vector<Box>& used) {
+/// Writes what was found at its box: above it, or where that place is outside the image or `used` already,
+/// inside its upper edge or below it. Adds the place to `used`.
+inline void draw_label(ImageView<Rgb> image, const Box& box, const Detection& detection,
+                       const std::string& name, const Font& font, std::vector<Box>& used) {
     const Box page{0, 0, double(image.width()), double(image.height())};
     const double line = words_px(image.width());
-    const std::string text = shortened_label(whole_text, font, line, page.width - line / 2 - 1);
+    const std::string text =
+        shortened_label(name, " " + confidence_text(detection), font, line, page.width - line / 2 - 1);
     const double width = std::ceil(font.width(text, line)) + line / 2, height = line + 1;
-    const double x = std::clamp(box.x, 0.0, std::max(0.0, page.width - width));
+    const double x = std::clamp(box.x, 0.0, std::max(0.0, std::floor(page.width - width)));
     Box place{x, std::clamp(box.y, 0.0, std::max(0.0, page.height - height)), width, height};
     for (const double y : {box.y - height, box.y, box.y + box.height - height, box.y + box.height}) {
         const Box wish{x, y, width, height};
@@ -83,6 +83,7 @@ inline void draw_label(ImageView<Rgb> image, const Box& box, const std::string& 
     }
     place.x = std::round(place.x), place.y = std::round(place.y);
     used.push_back(place);
+    const Rgb color = class_color(detection.class_index);
     fill_box(image, place, color);
     font.draw(image, place.x + line / 4, place.y, text, ink_on(color), line);
 }

@@ -17,8 +17,9 @@ struct ShapeModel;
 
 /// @brief How features are collected from training images.
 struct TrainingFeatureOptions {
-    std::size_t max_features = 40000;  ///< on all objects together: each gives as many, its strongest, >= 30
-    bool choose_upsampling = true;     ///< small objects are enlarged; false: as the extractor says
+    std::size_t max_features =
+        40000;                      ///< of all objects together: each gives its share, the strongest, or 30
+    bool choose_upsampling = true;  ///< small objects are enlarged; false: as the extractor says
     bool views = true;    ///< also keep all features of the images, which box classifier and calibration need
     bool pixels = false;  ///< also keep the images' colours, which templates need
     bool depth =
