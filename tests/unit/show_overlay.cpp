@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,22 @@ TEST_CASE("The four images show votes, both maps on one scale, and the figure un
     CHECK(panel(0, 5, 55) == ism::mix(large(10, 110), ism::black, 0.4));
     CHECK(panel(0, 40, 35) == ism::class_color(1));  // the box
     CHECK(row == ism::draw_explanation(image, some_detections(), 0, both_names, plain_options));
+}
+
+TEST_CASE("Large images are explained in panels that are no longer than asked for") {
+    const RgbImage image = ism::magnified(some_picture(), 10);  // 1000 x 600
+    ism::OverlayOptions options = plain_options;
+    const RgbImage large = ism::draw_explanation(image, some_detections(), 0, both_names, options);
+    options.panel_px = 250;
+    const RgbImage small = ism::draw_explanation(image, some_detections(), 0, both_names, options);
+    CHECK(small.height() == 150);
+    const int gap = (small.width() - 4 * 250) / 3, large_gap = (large.width() - 4 * 1000) / 3;
+    CHECK(gap <= 8);
+    const Rgb mean = small(3 * (250 + gap) + 40, 100), one = large(3 * (1000 + large_gap) + 162, 402);
+    CHECK(std::abs(int(mean.r) - int(one.r)) <= 8);  // the same place
+    options.panel_px = 15;
+    CHECK_THROWS_WITH(ism::draw_explanation(image, some_detections(), 0, both_names, options),
+                      "OverlayOptions::panel_px: expected 16 or more pixels, got 15");
 }
 
 TEST_CASE("Cells of a template are green where they speak for the class, red where against it") {

@@ -13,6 +13,7 @@
 #include "ism/show/overlay_cells.hpp"
 #include "ism/show/overlay_close_up.hpp"
 #include "ism/show/overlay_panels.hpp"
+#include "ism/show/shrunk.hpp"
 
 namespace ism {
 
@@ -22,6 +23,7 @@ struct OverlayOptions {
     bool close_up = true;      ///< rows show a detection and its surroundings instead of the whole image
     double circle_scales = 3;  ///< radius of a feature's circle in multiples of its scale
     bool cells = true;         ///< rows also show what a template saw, where a detection tells it
+    int panel_px = 1280;       ///< longer side of the largest panel of a row; larger ones are made smaller
     const Font* font = nullptr;  ///< of names and captions, such as system_font(); none = without words
 };
 
@@ -93,10 +95,14 @@ namespace detail {
                       cells_panel(large, detection.cells, magnified(detection.cells.box, factor)));
         captions.insert(captions.begin() + 1, "template");
     }
+    const double zoom = std::min(1.0, double(options.panel_px) / std::max(large.width(), large.height()));
+    if (zoom < 1)
+        for (RgbImage& panel : panels) panel = shrunk(panel, zoom);
     RgbImage row = captioned_row(panels, captions, font);
+    const int panel = panels[0].width();
     if (cells && !font.empty())
-        draw_cells_legend(row.view().region(large.width() + 4 * int(pen), 0, large.width(), row.height()),
-                          captions[1], font, words_px(large.width()));
+        draw_cells_legend(row.view().region(panel + 4 * pen_px(panel), 0, panel, row.height()), captions[1],
+                          font, words_px(panel));
     return row;
 }
 
@@ -107,10 +113,11 @@ namespace detail {
 /// p(figure) and p(ground), both on one scale whose brightest value stands in the caption; the figure in its
 /// surroundings.
 /// @throws Error where there is no detection `which`, its class has no name, its votes point to features that
-/// are not there or its segmentation's parts differ in size.
+/// are not there, its segmentation's parts differ in size or an option is out of range.
 [[nodiscard]] inline RgbImage draw_explanation(ImageView<const Rgb> image, const Detections& detections,
                                                std::size_t which, std::span<const std::string> class_names,
                                                const OverlayOptions& options = {}) {
+    expect(options.panel_px >= 16, "OverlayOptions::panel_px", "16 or more pixels", options.panel_px);
     expect(which < detections.objects.size(), "index of a detection",
            lazy_text("below ", detections.objects.size()), which);
     const Detection& detection = detections.objects[which];

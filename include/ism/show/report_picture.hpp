@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "ism/core/resize_area.hpp"
+#include "ism/core/image.hpp"
 #include "ism/io/jpeg.hpp"
 #include "ism/show/report_parts.hpp"
+#include "ism/show/shrunk.hpp"
 #include "ism/show/svg.hpp"
 
 namespace ism {
@@ -27,22 +26,6 @@ struct ReportPictureOptions {
 /// @brief Throws Error where an option is out of range.
 inline void check(const ReportPictureOptions& options) {
     expect(options.side_px >= 16, "report pictures: longer side", "16 or more pixels", options.side_px);
-}
-
-/// @brief An image made so much smaller, 0 < zoom ≤ 1; each pixel is the mean of those it stands for.
-[[nodiscard]] inline RgbImage shrunk(ImageView<const Rgb> image, double zoom) {
-    std::vector<float> numbers;
-    numbers.reserve(std::size_t(image.width()) * std::size_t(image.height()) * 3);
-    for (int y = 0; y < image.height(); ++y)
-        for (const Rgb& pixel : image.row(y))
-            numbers.insert(numbers.end(), {float(pixel.r), float(pixel.g), float(pixel.b)});
-    const auto side = [&](int px) { return std::max(1, int(std::lround(zoom * px))); };
-    RgbImage small(side(image.width()), side(image.height()));
-    numbers = resize_area<3>(numbers, image.width(), image.height(), small.width(), small.height());
-    for (std::size_t i = 0; i < small.pixels().size(); ++i)
-        small.pixels()[i] = {std::uint8_t(numbers[3 * i] + 0.5f), std::uint8_t(numbers[3 * i + 1] + 0.5f),
-                             std::uint8_t(numbers[3 * i + 2] + 0.5f)};
-    return small;
 }
 
 /// @brief A picture for the figures of a report: a JPEG file of at most so many pixels and bytes.
