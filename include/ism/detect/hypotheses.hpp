@@ -57,6 +57,18 @@ inline void sort_by_score(std::vector<Detection>& detections) {
     return placed;
 }
 
+/// Drops the votes for all classes but that of the most weight.
+/// @return that class
+inline std::uint32_t keep_heaviest_class(std::vector<Support>& window, const ShapeModel& shapes) {
+    const auto class_of = [&](const Support& s) { return shapes.occurrence(s.occurrence).class_index; };
+    std::vector<double> weights(shapes.class_names.size(), 0);
+    for (const Support& s : window) weights[class_of(s)] += s.weight;
+    const auto heaviest =
+        static_cast<std::uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+    drop_if(window, [&](const Support& s) { return class_of(s) != heaviest; });
+    return heaviest;
+}
+
 /// Drops the votes for an object at another depth, which agree in s·d if it is of one size.
 /// @return the share of weight that stays
 inline double keep_at_depth(std::vector<Support>& window, const Scene& scene, double depth_m) {
@@ -76,16 +88,9 @@ inline double keep_at_depth(std::vector<Support>& window, const Scene& scene, do
                                               bool by_depth) {
     const ShapeModel& shapes = scene.model.shapes;
     const Camera* const camera = scene.frame.camera ? &*scene.frame.camera : nullptr;
-    std::vector<double> of_class(shapes.class_names.size(), 0);
-    for (const Support& s : window) of_class[shapes.occurrence(s.occurrence).class_index] += s.weight;
     Detection result;
-    result.class_index =
-        static_cast<std::uint32_t>(std::max_element(of_class.begin(), of_class.end()) - of_class.begin());
+    result.class_index = keep_heaviest_class(window, shapes);
     result.score = score;
-    detail::drop_if(window, [&](const Support& s) {
-        return shapes.occurrence(s.occurrence).class_index != result.class_index;
-    });
-
     std::vector<double> depths, weights;
     for (const Support& s : window) {
         const Feature& f = scene.features[s.feature];

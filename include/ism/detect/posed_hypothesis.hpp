@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -69,14 +68,8 @@ inline constexpr std::size_t box_votes = 12;
 inline Detection describe_posed_hypothesis(double /*score*/, std::vector<Support> window,
                                            const Scene& scene) {
     const ShapeModel& shapes = scene.model.shapes;
-    std::vector<double> of_class(shapes.class_names.size(), 0);
-    for (const Support& s : window) of_class[shapes.occurrence(s.occurrence).class_index] += s.weight;
     Detection result;
-    result.class_index =
-        static_cast<std::uint32_t>(std::max_element(of_class.begin(), of_class.end()) - of_class.begin());
-    std::erase_if(window, [&](const Support& s) {
-        return shapes.occurrence(s.occurrence).class_index != result.class_index;
-    });
+    result.class_index = detail::keep_heaviest_class(window, shapes);
     result.support = one_a_feature(std::move(window));
     if (result.support.empty()) return result;
 

@@ -38,11 +38,11 @@ inline void change_log_odds(Detection& detection, double change, const Calibrati
 }
 
 /// @brief By how much the most probable box of another class at about the same place leads each detection, in
-/// logarithms of odds; 0 where none does. What was lost to rivals before does not count.
-/// @param detections  with reasons of their boxes
-[[nodiscard]] inline std::vector<double> rival_leads(const std::vector<Detection>& detections) {
-    std::vector<double> odds, leads;
-    for (const Detection& d : detections) odds.push_back(d.box_reasons.sum() - d.box_reasons.rivals);
+/// logarithms of odds; 0 where none does.
+/// @param odds  logarithms of each detection's
+[[nodiscard]] inline std::vector<double> rival_leads(const std::vector<Detection>& detections,
+                                                     const std::vector<double>& odds) {
+    std::vector<double> leads;
     for (std::size_t i = 0; i < detections.size(); ++i) {
         double strongest = odds[i];
         for (std::size_t j = 0; j < detections.size(); ++j)
@@ -124,12 +124,11 @@ inline void check(const RivalOptions& options) {
 /// @param calibration  that gave them their probabilities
 inline void yield_to_rivals(std::vector<Detection>& detections, const Calibration& calibration,
                             const RivalOptions& options = {}) {
-    std::vector<double> alone, odds;
-    for (const double lead : rival_leads(detections)) {
-        const BoxReasons& reasons = detections[odds.size()].box_reasons;
-        alone.push_back(reasons.sum() - reasons.rivals);
-        odds.push_back(alone.back() - options.other_classes * lead);
-    }
+    std::vector<double> alone;
+    for (const Detection& d : detections) alone.push_back(d.box_reasons.sum() - d.box_reasons.rivals);
+    std::vector<double> odds = alone;
+    const std::vector<double> leads = rival_leads(detections, alone);
+    for (std::size_t i = 0; i < odds.size(); ++i) odds[i] -= options.other_classes * leads[i];
     if (options.wholes_and_parts) odds = odds_of_wholes_and_parts(detections, odds);
     for (std::size_t i = 0; i < odds.size(); ++i) {
         Detection& detection = detections[i];

@@ -66,29 +66,14 @@ namespace detail {
         all.category_ids.clear();
     else
         all.category_ids = detail::join_category_ids(all.category_ids, more.category_ids, class_of);
-    const auto objects = static_cast<std::uint32_t>(all.objects.size());
-    for (TrainingObject& object : more.objects) {
-        object.class_index = class_of[object.class_index];
-        all.objects.push_back(std::move(object));
-    }
-    for (std::size_t c = 0; c < all.samples.size(); ++c)
-        for (std::size_t i = 0; i < more.samples[c].occurrences.size(); ++i) {
-            Occurrence o = more.samples[c].occurrences[i];
-            o.class_index = class_of[o.class_index];
-            o.object += objects;
-            all.samples[c].occurrences.push_back(o);
-            all.samples[c].descriptors.push_back(more.samples[c].descriptors.row(i));
-        }
-    detail::number_features(all.samples);
-    for (TrainingView& view : more.views) {
+    for (TrainingObject& object : more.objects) object.class_index = class_of[object.class_index];
+    for (TrainingSamples& channel : more.samples)
+        for (Occurrence& o : channel.occurrences) o.class_index = class_of[o.class_index];
+    for (TrainingView& view : more.views)
         for (ObjectLabel& label : view.labels) label.class_index = class_of[label.class_index];
-        view.first_object += objects, view.end_object += objects;
-        all.views.push_back(std::move(view));
-    }
-    all.summary.images += more.summary.images;
-    all.summary.features_found += more.summary.features_found;
-    all.summary.features_used += more.summary.features_used;
-    return all;
+    std::vector<TrainingFeatures> parts;
+    parts.push_back(std::move(more));
+    return detail::join_images(std::move(all), std::move(parts));
 }
 
 }  // namespace ism

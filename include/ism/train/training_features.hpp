@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ism/core/camera.hpp"
@@ -73,6 +74,31 @@ inline void number_features(std::vector<TrainingSamples>& samples) {
     std::uint32_t feature = 0;
     for (TrainingSamples& channel : samples)
         for (Occurrence& o : channel.occurrences) o.feature = feature++;
+}
+
+/// Joins what images gave, in their order; classes are the same in all.
+[[nodiscard]] inline TrainingFeatures join_images(TrainingFeatures all, std::vector<TrainingFeatures> parts) {
+    for (TrainingFeatures& part : parts) {
+        const auto objects = static_cast<std::uint32_t>(all.objects.size());
+        for (std::size_t c = 0; c < part.samples.size(); ++c)
+            for (std::size_t i = 0; i < part.samples[c].occurrences.size(); ++i) {
+                Occurrence o = part.samples[c].occurrences[i];
+                o.object += objects;
+                all.samples[c].occurrences.push_back(o);
+                all.samples[c].descriptors.push_back(part.samples[c].descriptors.row(i));
+            }
+        for (TrainingObject& object : part.objects) all.objects.push_back(std::move(object));
+        for (TrainingView& view : part.views) {
+            view.first_object += objects, view.end_object += objects;
+            all.views.push_back(std::move(view));
+        }
+        all.summary.images += part.summary.images;
+        all.summary.features_found += part.summary.features_found;
+        all.summary.features_used += part.summary.features_used;
+        part = {};
+    }
+    number_features(all.samples);
+    return all;
 }
 
 }  // namespace detail
