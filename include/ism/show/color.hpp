@@ -17,7 +17,7 @@ inline constexpr Rgb black{0, 0, 0}, white{255, 255, 255};
 /// @brief Between two colours: `from` at share 0, `to` at share 1.
 [[nodiscard]] inline Rgb mix(Rgb from, Rgb to, double share) {
     const auto channel = [share](std::uint8_t a, std::uint8_t b) {
-        return std::uint8_t(std::lround(a + (b - a) * std::clamp(share, 0.0, 1.0)));
+        return std::uint8_t(a + (b - a) * std::clamp(share, 0.0, 1.0) + 0.5);
     };
     return {channel(from.r, to.r), channel(from.g, to.g), channel(from.b, to.b)};
 }

@@ -26,17 +26,19 @@ inline void draw_contour(ImageView<Rgb> image, ImageView<const std::uint8_t> mas
                          int width_px = 1) {
     expect(image.width() == mask.width() && image.height() == mask.height(), "mask size", size_text(image),
            size_text(mask));
-    const auto near_ground = [&](int x, int y) {
+    const auto is_figure = [&](int x, int y) { return mask.contains(x, y) && mask(x, y) != 0; };
+    const auto paint_around = [&](int x, int y) {
         for (int v = -width_px; v <= width_px; ++v)
             for (int u = -width_px; u <= width_px; ++u)
-                if (u * u + v * v <= width_px * width_px &&
-                    (!mask.contains(x + u, y + v) || mask(x + u, y + v) == 0))
-                    return true;
-        return false;
+                if (u * u + v * v <= width_px * width_px && is_figure(x + u, y + v))
+                    image(x + u, y + v) = color;
     };
-    for (int y = 0; y < mask.height(); ++y)
-        for (int x = 0; x < mask.width(); ++x)
-            if (mask(x, y) != 0 && near_ground(x, y)) image(x, y) = color;
+    // The nearest ground of a figure pixel always has a figure pixel beside it.
+    for (int y = -1; y <= mask.height(); ++y)
+        for (int x = -1; x <= mask.width(); ++x)
+            if (!is_figure(x, y) &&
+                (is_figure(x - 1, y) || is_figure(x + 1, y) || is_figure(x, y - 1) || is_figure(x, y + 1)))
+                paint_around(x, y);
 }
 
 /// @brief An image made `factor` times as wide and high: smooth between pixels.
@@ -44,6 +46,11 @@ inline void draw_contour(ImageView<Rgb> image, ImageView<const std::uint8_t> mas
 [[nodiscard]] inline RgbImage magnified(ImageView<const Rgb> image, int factor) {
     expect(factor >= 1, "magnification", "1 or more", factor);
     RgbImage large(image.width() * factor, image.height() * factor);
+    if (factor == 1) {
+        for (int y = 0; y < image.height(); ++y)
+            std::copy_n(image.row(y).begin(), image.width(), large.row(y).begin());
+        return large;
+    }
     for (int y = 0; y < large.height(); ++y)
         for (int x = 0; x < large.width(); ++x) {
             const double u = std::clamp((x + 0.5) / factor - 0.5, 0.0, image.width() - 1.0);
