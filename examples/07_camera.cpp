@@ -11,6 +11,7 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <opencv2/highgui.hpp>
@@ -57,6 +58,9 @@ int main(int argc, char** argv) try {
         return 2;
     }
     const auto model = ism::load_model<ism::HessianLaplace, ism::RootSift>(argv[1]);
+    std::error_code none;  // of files that are not there
+    if (argc > 3 && std::filesystem::equivalent(argv[2], argv[3], none))
+        throw ism::Error("OUT.avi: expected another file than the video that is read");
     cv::VideoCapture capture = open(argc > 2 ? argv[2] : "0");
     cv::VideoWriter writer;
 

@@ -66,6 +66,7 @@ TEST_CASE("positions, rotations and cameras for Eigen and back") {
     CHECK(seen.y() / seen.z() == Approx(pixel.y));
     CHECK(ism::to_camera(ism::to_eigen(camera)) == camera);
     CHECK_THROWS_AS(ism::to_camera(Eigen::Matrix3d::Zero()), ism::Error);
+    CHECK_THROWS_AS(ism::to_camera(ism::to_eigen(camera).transpose()), ism::Error);
 }
 
 TEST_CASE("the pose of a detection as Eigen has it") {

@@ -76,6 +76,16 @@ TEST_CASE("matrices of other types are refused with what they are") {
     CHECK_THROWS_WITH(ism::to_frame(cv::Mat(2, 2, CV_8UC1), cv::Mat(3, 2, CV_16UC1), 1),
                       "depth image size: expected 2x2, got 2x3");
     CHECK_THROWS_AS(ism::view_of<float>(cv::Mat(2, 2, CV_8UC1)), ism::Error);
+    CHECK_THROWS_WITH(ism::to_mask(cv::Mat(2, 2, CV_8UC3)), "mask: type: expected CV_8UC1, got CV_8UC3");
+    const cv::Mat k = (cv::Mat_<double>(3, 3) << 525, 0, 320, 0, 526, 240, 0, 0, 1);
+    CHECK(ism::to_camera(k) == ism::Camera{525, 526, 320, 240});
+    CHECK_THROWS_WITH(
+        ism::to_camera(cv::Mat(k.t())),
+        "camera matrix: expected zeros below its diagonal (is it transposed?), got 0, 320, 240");
+    CHECK_THROWS_WITH(ism::to_camera(cv::Mat(k * 2)), "camera matrix: its last number: expected 1, got 2");
+    // cv::Mat::convertTo() keeps 0 ... 255
+    CHECK_THROWS_WITH(ism::to_frame(cv::Mat(2, 2, CV_32FC3, cv::Scalar(7, 8, 90))),
+                      "picture of floats: expected 0 to 1 (accepted: -1 to 2), got 0 to 90");
     CHECK_THROWS_WITH(ism::to_camera(cv::Mat(3, 2, CV_64F)),
                       "camera matrix: expected 3x3 of CV_64FC1 or CV_32FC1, got 3x2 of CV_64FC1");
 }

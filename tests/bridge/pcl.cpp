@@ -55,7 +55,23 @@ TEST_CASE("clouds that are no image are refused") {
     CHECK_THROWS_WITH(ism::to_frame(moved), Catch::Contains("points on the rays of a camera"));
     auto without = wall();
     for (auto& point : without) point.z = std::numeric_limits<float>::quiet_NaN();
-    CHECK_THROWS_WITH(ism::to_frame(without), Catch::Contains("camera focal lengths"));
+    CHECK_THROWS_WITH(ism::to_frame(without),
+                      "cloud: expected points with depth in two rows and columns or more, got 0 with depth");
+    auto cut = wall();
+    cut.resize(32 * 19);
+    cut.width = 32, cut.height = 20;
+    CHECK_THROWS_WITH(ism::to_frame(cut), "cloud: points: expected 32x20, got 608");
+    CHECK_THROWS_WITH(ism::to_frame(cut, camera), "cloud: points: expected 32x20, got 608");
+    auto upwards = wall();
+    for (auto& point : upwards) point.y = -point.y;
+    CHECK_THROWS_WITH(ism::to_frame(upwards),
+                      Catch::Contains("(x right, y down, z forward), got focal lengths"));
+}
+
+TEST_CASE("a single point that is off does not hide a cloud's camera") {
+    auto cloud = wall();
+    cloud(3, 3).x += 0.02f;
+    CHECK(ism::to_frame(cloud).camera->fx == Approx(camera.fx).epsilon(0.01));
 }
 
 TEST_CASE("detections as positions and as points of the cloud") {

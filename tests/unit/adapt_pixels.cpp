@@ -111,4 +111,13 @@ TEST_CASE("what cannot be pixels is refused with what was expected and found") {
                       "depth scale (metres per unit): expected a positive number, got 0");
     CHECK_THROWS_WITH(ism::to_frame(of(bytes, 2, 2, 2, format::gray8), of(bytes, 2, 1, 4, format::gray16), 1),
                       "depth image size: expected 2x2, got 2x1");
+    std::array<float, 4> floats{0, 0.5f, 37, 1};
+    const ism::RawPixels gray{floats.data(), 2, 2, 8, format::gray_float};
+    CHECK_THROWS_WITH(ism::to_frame(gray),
+                      "picture of floats: expected 0 to 1 (accepted: -1 to 2), got 0 to 37");
+    floats[2] = std::numeric_limits<float>::quiet_NaN();
+    CHECK_THROWS_WITH(ism::to_frame(gray),
+                      "picture of floats: expected numbers, got one that is none or infinite");
+    floats[2] = 1.5f;
+    CHECK(ism::to_frame(gray).gray(0, 1) == 1.5f);
 }

@@ -100,11 +100,10 @@ template <EigenMatrix M>
 [[nodiscard]] inline Eigen::Matrix3d to_eigen(const Camera& camera) {
     return Eigen::Matrix3d{{camera.fx, 0, camera.cx}, {0, camera.fy, camera.cy}, {0, 0, 1}};
 }
-/// @throws Error as check(const Camera&) does.
+/// @throws Error as camera_of_matrix() does.
 [[nodiscard]] inline Camera to_camera(const Eigen::Matrix3d& k) {
-    const Camera camera{k(0, 0), k(1, 1), k(0, 2), k(1, 2)};
-    check(camera);
-    return camera;
+    return camera_of_matrix(
+        {k(0, 0), k(0, 1), k(0, 2), k(1, 0), k(1, 1), k(1, 2), k(2, 0), k(2, 1), k(2, 2)});
 }
 
 /// @brief Where a detection's object is in the camera frame, metres, and how it is turned

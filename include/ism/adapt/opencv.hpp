@@ -70,9 +70,14 @@ template <class T>
     return view_of<T>(raw_pixels(mat));
 }
 
+/// @brief Not of a matrix that is gone with the expression that computes it.
+template <class T>
+ImageView<const T> view_of(const cv::MatExpr&) = delete;
+
 /// @brief A mask: what is not 0 is figure.
 /// @throws Error where the matrix is not CV_8UC1.
 [[nodiscard]] inline Mask to_mask(const cv::Mat& mat) {
+    expect(mat.type() == CV_8UC1, "mask: type", "CV_8UC1", cv::typeToString(mat.type()));
     const auto view = view_of<std::uint8_t>(mat);
     Mask mask(view.width(), view.height());
     for (int y = 0; y < view.height(); ++y) std::copy_n(&view(0, y), view.width(), mask.row(y).begin());
@@ -81,15 +86,14 @@ template <class T>
 
 /// @brief The camera of a matrix K (3 × 3, CV_64F or CV_32F), as cv::calibrateCamera() gives it. Pictures
 /// have to be without distortion: see cv::undistort().
-/// @throws Error for another size or type, and as check(const Camera&) does.
+/// @throws Error for another size or type, and as camera_of_matrix() does.
 [[nodiscard]] inline Camera to_camera(const cv::Mat& k) {
     const bool is_k = k.dims == 2 && k.rows == 3 && k.cols == 3 && (k.type() == CV_64F || k.type() == CV_32F);
     expect(is_k, "camera matrix", "3x3 of CV_64FC1 or CV_32FC1",
            lazy_text(k.rows, "x", k.cols, " of ", cv::typeToString(k.type())));
     const auto at = [&](int y, int x) { return k.type() == CV_64F ? k.at<double>(y, x) : k.at<float>(y, x); };
-    const Camera camera{at(0, 0), at(1, 1), at(0, 2), at(1, 2)};
-    check(camera);
-    return camera;
+    return camera_of_matrix(
+        {at(0, 0), at(0, 1), at(0, 2), at(1, 0), at(1, 1), at(1, 2), at(2, 0), at(2, 1), at(2, 2)});
 }
 
 /// @brief A grey image of ours as a matrix on the same memory, without a copy. It has to stay as long as the
@@ -99,6 +103,15 @@ requires std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint16_t> || 
 [[nodiscard]] cv::Mat mat_of(Image<T>& image) {
     return {image.height(), image.width(), cv::DataType<T>::type, image.pixels().data()};
 }
+
+/// @brief The same to read from.
+template <class T>
+requires std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint16_t> || std::is_same_v<T, float>
+[[nodiscard]] const cv::Mat mat_of(const Image<T>& image) {
+    return mat_of(const_cast<Image<T>&>(image));
+}
+template <class T>
+cv::Mat mat_of(const Image<T>&&) = delete;
 
 /// @brief Colours as OpenCV has them, CV_8UC3 in the order b, g, r.
 [[nodiscard]] inline cv::Mat to_bgr(const RgbImage& image) {

@@ -10,9 +10,9 @@
 #error "ism/adapt/pcl.hpp needs PCL (Debian: libpcl-dev), by find_package(PCL COMPONENTS common) in CMake"
 #include "ism_needs_PCL"  // no such file: the compilation ends here
 #endif
-#include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -57,33 +57,53 @@ private:
 
 }  // namespace detail
 
-/// @brief The camera that an organised cloud was seen by: pixel x is fx·X/Z + cx, by least squares over its
-/// points.
-/// @throws Error where the cloud is not organised, or its points do not lie on the rays of a camera (x right,
-/// y down, z forward).
+namespace detail {
+
 template <ColoredPoint P>
-[[nodiscard]] Camera camera_of(const pcl::PointCloud<P>& cloud) {
+void check_organised(const pcl::PointCloud<P>& cloud) {
     expect(cloud.isOrganized(), "cloud", "an organised one (rows and columns of an image)",
            lazy_text(cloud.width, "x", cloud.height));
-    const int width = int(cloud.width), height = int(cloud.height);
+    expect(cloud.size() == std::size_t(cloud.width) * cloud.height, "cloud: points",
+           lazy_text(cloud.width, "x", cloud.height), cloud.size());
+}
+
+/// Calls `look(x, y, point)` for each point that was seen.
+template <ColoredPoint P, class Look>
+void for_each_reading(const pcl::PointCloud<P>& cloud, const Look& look) {
+    for (int y = 0; y < int(cloud.height); ++y)
+        for (int x = 0; x < int(cloud.width); ++x)
+            if (const P& point = cloud(x, y); is_depth(point.z) && std::isfinite(point.x + point.y))
+                look(x, y, point);
+}
+
+}  // namespace detail
+
+/// @brief The camera that an organised cloud was seen by: pixel x is fx·X/Z + cx, by least squares over its
+/// points.
+/// @throws Error where the cloud is not organised, has points in less than two rows and columns, or more than
+/// a hundredth of its points lie off the rays of a camera (x right, y down, z forward).
+template <ColoredPoint P>
+[[nodiscard]] Camera camera_of(const pcl::PointCloud<P>& cloud) {
+    detail::check_organised(cloud);
     detail::LineFit along_x, along_y;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            if (const P& point = cloud(x, y); is_depth(point.z) && std::isfinite(point.x + point.y)) {
-                along_x.add(double(point.x) / double(point.z), x);
-                along_y.add(double(point.y) / double(point.z), y);
-            }
+    std::size_t readings = 0, off = 0;
+    detail::for_each_reading(cloud, [&](int x, int y, const P& point) {
+        along_x.add(double(point.x) / double(point.z), x);
+        along_y.add(double(point.y) / double(point.z), y);
+        ++readings;
+    });
     const Camera camera{along_x.f(), along_y.f(), along_x.c(), along_y.c()};
+    expect(std::isfinite(camera.fx + camera.fy), "cloud", "points with depth in two rows and columns or more",
+           lazy_text(readings, " with depth"));
+    constexpr const char* rays = "points on the rays of a camera (x right, y down, z forward)";
+    expect(camera.fx >= 1 && camera.fy >= 1, "cloud", rays,
+           lazy_text("focal lengths of ", camera.fx, " and ", camera.fy, " px"));
     check(camera);
-    double worst_px = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            if (const P& point = cloud(x, y); is_depth(point.z) && std::isfinite(point.x + point.y)) {
-                const Point2 pixel = project(camera, {point.x, point.y, point.z});
-                worst_px = std::max(worst_px, std::hypot(pixel.x - x, pixel.y - y));
-            }
-    expect(worst_px <= 1, "cloud", "points on the rays of a camera, within 1 px (x right, y down, z forward)",
-           lazy_text("one ", worst_px, " px off"));
+    detail::for_each_reading(cloud, [&](int x, int y, const P& point) {
+        const Point2 pixel = project(camera, {point.x, point.y, point.z});
+        off += std::hypot(pixel.x - x, pixel.y - y) > 1;
+    });
+    expect(off <= readings / 100, "cloud", rays, lazy_text(off, " of ", readings, " more than 1 px off"));
     return camera;
 }
 
@@ -92,8 +112,7 @@ template <ColoredPoint P>
 /// @throws Error where the cloud is not organised, and as camera_of() does.
 template <ColoredPoint P>
 [[nodiscard]] Frame to_frame(const pcl::PointCloud<P>& cloud, const std::optional<Camera>& camera = {}) {
-    expect(cloud.isOrganized(), "cloud", "an organised one (rows and columns of an image)",
-           lazy_text(cloud.width, "x", cloud.height));
+    detail::check_organised(cloud);
     Frame frame;
     frame.camera = camera ? *camera : camera_of(cloud);
     const int width = int(cloud.width), height = int(cloud.height);

@@ -178,9 +178,30 @@ inline constexpr float full_sample = std::is_same_v<T, std::uint8_t>    ? 255.0f
         pixels, [&](auto value, auto, auto) { return float(value * metres_per_unit); });
 }
 
+namespace detail {
+
+/// Floats of 0 ... 255 look like bright pictures, and dark ones of them like almost white ones.
+inline void check_unit_floats(const RawPixels& picture) {
+    if (picture.format.sample != Sample::float32) return;
+    float least = 0, most = 1;
+    bool numbers = true;
+    (void)convert_pixels<std::uint8_t>(picture, [&](auto r, auto g, auto b) {
+        least = std::min({least, float(r), float(g), float(b)});
+        most = std::max({most, float(r), float(g), float(b)});
+        numbers = numbers && std::isfinite(float(r) + float(g) + float(b));
+        return std::uint8_t(0);
+    });
+    expect(numbers, "picture of floats", "numbers", "one that is none or infinite");
+    expect(least >= -1 && most <= 2, "picture of floats", "0 to 1 (accepted: -1 to 2)",
+           lazy_text(least, " to ", most));
+}
+
+}  // namespace detail
+
 /// @brief A picture as the library takes it: brightness, and colours where there are some.
-/// @throws Error as check(const RawPixels&) does.
+/// @throws Error as check(const RawPixels&) does, and for floats that are far from 0 ... 1.
 [[nodiscard]] inline Frame to_frame(const RawPixels& picture, const std::optional<Camera>& camera = {}) {
+    detail::check_unit_floats(picture);
     if (picture.format.is_gray()) return {.gray = to_gray(picture), .camera = camera};
     Frame frame{.gray = {}, .color = to_rgb(picture), .camera = camera};
     frame.gray = picture.format.sample == Sample::uint8 ? to_gray(frame.color) : to_gray(picture);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -37,6 +38,18 @@ inline void check(const Camera& camera) {
            lazy_text(camera.fx, ", ", camera.fy));
     expect(is_place(camera.cx) && is_place(camera.cy), "camera principal point cx, cy (pixels)",
            "-1e+07 to 1e+07", lazy_text(camera.cx, ", ", camera.cy));
+}
+
+/// @brief The camera of a matrix K, row by row.
+/// @throws Error where it is not 0 below the diagonal, as of a transposed matrix, or does not end with 1, and
+/// as check() does.
+[[nodiscard]] inline Camera camera_of_matrix(const std::array<double, 9>& k) {
+    expect(k[3] == 0 && k[6] == 0 && k[7] == 0, "camera matrix",
+           "zeros below its diagonal (is it transposed?)", lazy_text(k[3], ", ", k[6], ", ", k[7]));
+    expect(k[8] == 1, "camera matrix: its last number", 1, k[8]);
+    const Camera camera{k[0], k[4], k[2], k[5]};
+    check(camera);
+    return camera;
 }
 
 /// @brief The point in the camera frame that is seen at `pixel` and lies `depth_m` along the optical axis.
