@@ -128,7 +128,7 @@ constexpr const char* detect_help = R"(
 What was found is told on standard output, how long it took on stderr. On a terminal it is a table; else one
 line an object, its fields separated by tabulators: image, class, probability, box (x, y, width, height in
 pixels, within the picture), depth (along the optical axis), position (x right, y down, z ahead of the camera)
-and its standard error, in metres; - where something is not known. With --data this is told where no file is
+and how far its votes scatter, in metres; - where something is not known. With --data this is told where no file is
 asked for.
 
 --json: one object an image: file, width, height, detections [class, category_id, probability, score, scale,

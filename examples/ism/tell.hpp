@@ -22,7 +22,7 @@ struct FoundInImage {
 };
 
 /// One line an object, its fields separated by tabulators: image, class, probability, x, y, width, height,
-/// depth, X, Y, Z, standard error; "-" where something is not known.
+/// depth, X, Y, Z, scatter of their votes; "-" where something is not known.
 [[nodiscard]] std::string object_lines(const FoundInImage& found);
 
 /// The objects of all images as a table for people; without the images' names where there is one alone.

@@ -62,7 +62,7 @@ cmp lines.txt again.txt || fail "depth images are looked at"
 says "left out as depth: 1 of the images" left-out.txt
 rm photos/0-depth.png
 
-# Depth and camera give places in metres with a standard error; depth alone the depth.
+# Depth and camera give places in metres and what they may be off by; depth alone the depth.
 shot=(toys/test/test-0000.png --depth toys/test/test-0000-depth.png --depth-scale 0.001)
 "${detect[@]}" "${shot[@]}" --camera 262.5,262.5,159.5,119.5 >metres.txt 2>/dev/null
 awk -F '\t' '$8 < .3 || $8 > 3 || $11 < .3 || $11 > 3 {bad = 1} $12 != "-" {known = 1} END {exit bad || !known}' metres.txt ||

@@ -33,7 +33,8 @@ struct Result {
     std::optional<Point3> position_m = {};  ///< in the camera frame
     double depth_m = no_depth;              ///< along the optical axis, metres; NaN = not known
     double scale = 1;                       ///< size relative to the reference size of its class
-    double position_error_m = std::numeric_limits<double>::quiet_NaN();  ///< standard error; NaN = not known
+    double position_error_m =
+        std::numeric_limits<double>::quiet_NaN();  ///< scatter of votes; NaN = not known
     double angle_rad = 0;         ///< turned by so much from x towards y; 0 = upright, or not known
     std::string class_name = {};  ///< what category_id stands for; empty = not told
 };

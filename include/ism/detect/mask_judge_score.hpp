@@ -108,8 +108,8 @@ struct RegionDepth {
 }
 
 /// @brief Places a detection in the camera frame: where at least three of its votes say, else where the ray
-/// through the middle of its box meets the median depth of its region, as for a training object; the standard
-/// error is then the deviation of these depths.
+/// through the middle of its box meets the median depth of its region, as for a training object, with the
+/// deviation of these depths as what it may be off by.
 [[nodiscard]] inline Detection placed(Detection detection, const RegionDepth& depth, const Scene& scene) {
     const Camera& camera = scene.surface->camera;
     if (detection.support.size() >= 3) {

@@ -39,14 +39,16 @@ inline constexpr std::size_t box_votes = 12;
     return votes;
 }
 
-/// @brief Gives a detection the position of its votes, their weighted mean, and its standard error by their
-/// scatter, as if features were independent.
+/// @brief Gives a detection the position of its votes, their weighted mean, and how far they scatter around
+/// it, the root of the mean square. That is what positions are off by: votes of one object err alike, so that
+/// many are no better than a few (on halves of osd's training images positions are off by 12 mm, votes
+/// scatter by 10, medians, and their standard error would be 1.4).
 [[nodiscard]] inline Detection with_voted_position(Detection detection, const Scene& scene) {
-    double total = 0, squares = 0, scatter = 0;
+    double total = 0, scatter = 0;
     Point3 mean;
     for (const Support& s : detection.support) {
         const Vec3f at = pose_of(s, scene).centre_m;
-        total += s.weight, squares += double(s.weight) * s.weight;
+        total += s.weight;
         mean.x += s.weight * at.x, mean.y += s.weight * at.y, mean.z += s.weight * at.z;
     }
     mean = {mean.x / total, mean.y / total, mean.z / total};
@@ -54,10 +56,9 @@ inline constexpr std::size_t box_votes = 12;
         const Vec3f off = pose_of(s, scene).centre_m - to_vec3f(mean);
         scatter += s.weight * dot(off, off);
     }
-    const double features = total * total / squares;  // that count
     detection.position_m = mean;
     detection.depth_m = mean.z;
-    if (features > 1.5) detection.position_error_m = std::sqrt(scatter / total / (features - 1));
+    if (detection.support.size() > 1) detection.position_error_m = std::sqrt(scatter / total);
     detection.rotation = pose_of(detection.support.front(), scene).rotation;
     return detection;
 }

@@ -25,7 +25,7 @@ struct TrackerOptions {
     std::size_t max_misses = 5;     ///< frames in a row in which it may be missed
     double drift_m = 0.003;         ///< how far an object may move from frame to frame, standard deviation
     double least_error_m = 0.003;   ///< no position is trusted more
-    double unknown_error_m = 0.03;  ///< standard error of a position that tells none
+    double unknown_error_m = 0.03;  ///< what a position may be off by that does not tell
 };
 
 /// @brief Validates options.
@@ -58,8 +58,8 @@ struct Track {
 /// @brief Keeps the identities of objects over frames and smooths their positions. An object is where it was
 /// (constant position, so the camera has to move little from frame to frame): each frame the nearest pairs of
 /// track and detection of one class come together, in metres, or by the overlap of their boxes where one has
-/// no position; a scalar Kalman filter (1960), the same for the three axes, weighs a new position by its
-/// standard error. The same detections give the same tracks.
+/// no position; a scalar Kalman filter (1960), the same for the three axes, weighs a new position by
+/// what it may be off by. The same detections give the same tracks.
 class Tracker {
 public:
     /// @throws Error as check(const TrackerOptions&) does.

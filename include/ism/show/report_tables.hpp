@@ -41,7 +41,7 @@ namespace ism {
             number_text(p->x, 3) + ", " + number_text(p->y, 3) + ", " + number_text(p->z, 3) + " m" +
                 (std::isnan(detection.position_error_m)
                      ? ""
-                     : ", standard error " + number_text(1000 * detection.position_error_m, 2) + " mm"));
+                     : ", votes scatter by " + number_text(1000 * detection.position_error_m, 2) + " mm"));
     if (!std::isnan(detection.size_m)) add("size", number_text(detection.size_m, 3) + " m");
     if (is_depth(detection.depth_m)) add("depth", number_text(detection.depth_m, 3) + " m");
     add("scale", number_text(detection.scale, 3));
