@@ -37,6 +37,22 @@ double log_odds(const ism::Detection& detection) {
 
 }  // namespace
 
+TEST_CASE("odds of a class whose curve is nearly flat change without leaving the numbers") {
+    const ism::Calibration flat{.curves = {{.slope = 0.01, .offset = 0}}};
+    for (const double change : {-10.0, 10.0}) {
+        ism::Detection detection;
+        detection.score = 1, detection.probability = 0.5;
+        ism::change_log_odds(detection, change, flat);
+        CHECK((detection.probability > 0.5) == (change > 0));
+        CHECK(std::isfinite(detection.score));
+        CHECK(detection.score > 0);
+        ism::change_log_odds(detection, -change, flat);
+        CHECK(std::isfinite(detection.score));
+        CHECK(detection.probability > 0);
+        CHECK(detection.probability < 1);
+    }
+}
+
 TEST_CASE("of two classes at one place the less probable yields") {
     const ism::Box here{10, 10, 40, 40}, beside{20, 10, 40, 40}, elsewhere{200, 10, 40, 40};
     const std::vector<ism::Detection> all = {

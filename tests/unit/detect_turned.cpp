@@ -177,6 +177,20 @@ TEST_CASE("of one turn, too, what is not probable enough is left out") {
     CHECK(found.next_best->probability == 0.1);
 }
 
+TEST_CASE("what is told from one look is not what comes next from another") {
+    const ism::Frame frame{.gray = ism::GrayImage(64, 48)};
+    int looks = 0;
+    const auto found =
+        ism::detect_turned(frame, {.turns = 2, .min_probability = 0.5}, [&](const ism::Frame&) {
+            ism::Detection object;
+            object.box = {22, 14, 20, 20}, object.centre = object.box.centre();
+            object.score = object.probability = looks == 0 ? 0.9 : 0.4;
+            return looks++ == 0 ? ism::Detections{.objects = {object}} : ism::Detections{.next_best = object};
+        });
+    CHECK(found.objects.size() == 1);
+    CHECK_FALSE(found.next_best.has_value());
+}
+
 TEST_CASE("what templates judged yields to what is more probable at another angle") {
     const ism::Frame frame{.gray = ism::GrayImage(64, 48)};
     // In the middle class 0 is seen upright with odds of e, class 1 upside down with e^3.

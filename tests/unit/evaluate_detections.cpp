@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -150,4 +151,8 @@ TEST_CASE("Detections that are not those of the data set are refused") {
     CHECK(error_message([&] { (void)ism::evaluate(set, found); }) ==
           "class of a found object: expected below 2, got 2");
     CHECK_THROWS_AS(ism::evaluate(set, small_detections(), {.iou_threshold = 0}), ism::Error);
+    found = small_detections();
+    found[1].objects[0].box.x = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_WITH(ism::evaluate(set, found),
+                      Catch::StartsWith("box of a found object: expected finite numbers"));
 }

@@ -167,6 +167,12 @@ TEST_CASE("JPEG, BMP and PNM files are read, and refused when cut at any length"
         for (std::size_t count = 0; count < file.size(); ++count)
             REQUIRE(read_error(folder, head_of(file, count)).starts_with("expected "));
     }
+    // Two pixels by two below the short header of OS/2, from the last row to the first.
+    const Bytes os2{'B', 'M', 42, 0,  0, 0, 0, 0, 0, 0, 26, 0, 0, 0, 12, 0, 0, 0, 2, 0, 2,
+                    0,   1,   0,  24, 0, 9, 8, 7, 1, 1, 1,  0, 0, 3, 2,  1, 1, 1, 1, 0, 0};
+    REQUIRE(read_error(folder, os2) == "nothing thrown");
+    CHECK(ism::read_rgb(folder / "image")(0, 0) == ism::Rgb{1, 2, 3});
+    CHECK(read_error(folder, head_of(os2, os2.size() - 1)) == "expected a whole image, got a truncated BMP");
     CHECK(read_error(folder, head_of(jpeg, jpeg.size() - 2)) ==
           "expected a whole image, got a truncated JPEG");
     CHECK(read_error(folder, head_of(bmp, bmp.size() - 1)) == "expected a whole image, got a truncated BMP");

@@ -323,6 +323,39 @@ TEST_CASE("what users build of detection is refused where it makes no sense") {
             model, test.frame,
             ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer, MaskAlone, ism::Mdl>{}),
         Catch::Contains("maps of figure and ground: expected 4x4, got 0x0"));
+    struct MaskAndBox {  // as from a classifier of pixels that tells no maps
+        ism::Box box{20, 20, 40, 40};
+        [[nodiscard]] ism::Segmentation segment(const ism::Detection&, const ism::Scene&) const {
+            return {.figure = ism::GrayImage(40, 40, 0.0f),
+                    .ground = ism::GrayImage(40, 40, 0.0f),
+                    .mask = ism::Mask(40, 40, 1),
+                    .box = box};
+        }
+    };
+    ism::Recognition<ism::Jism, ism::EpanechnikovKernel, ism::NoRescorer, MaskAndBox, ism::Mdl> cut;
+    CHECK_FALSE(ism::detect(model, test.frame, cut).objects.empty());
+    cut.segmenter.box.width = -1;
+    CHECK_THROWS_WITH(ism::detect(model, test.frame, cut),
+                      Catch::Contains("segmentation: box: expected finite numbers, with sides above 0"));
+    struct Other {
+        double factor = 1;
+        std::uint32_t more_classes = 0;
+        [[nodiscard]] std::vector<ism::Detection> rescore(std::vector<ism::Detection> hypotheses,
+                                                          const ism::Scene&) const {
+            for (ism::Detection& one : hypotheses) one.score *= factor, one.class_index += more_classes;
+            return hypotheses;
+        }
+    };
+    ism::Recognition<ism::Jism, ism::EpanechnikovKernel, Other> rescored;
+    CHECK_FALSE(ism::detect(model, test.frame, rescored).objects.empty());
+    for (const double factor : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        rescored.rescorer.factor = factor;
+        CHECK_THROWS_WITH(ism::detect(model, test.frame, rescored),
+                          Catch::Contains("rescorer: score: expected a number of 0 or more"));
+    }
+    rescored.rescorer = {.more_classes = 70};
+    CHECK_THROWS_WITH(ism::detect(model, test.frame, rescored),
+                      Catch::Contains("rescorer: class: expected below"));
     struct First {
         std::size_t times = 1;
         [[nodiscard]] bool needs_masks() const { return false; }

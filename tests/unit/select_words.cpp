@@ -171,4 +171,7 @@ TEST_CASE("a model keeps the chosen words of each channel with their occurrences
     ism::Model judged = model;
     judged.box_classifier.push_back({}, 0);
     CHECK_THROWS_WITH(ism::keep_words(judged, chosen), Catch::Contains("without classifier"));
+    ism::Model metric = model;
+    metric.shapes.frames.emplace_back();
+    CHECK_THROWS_WITH(ism::keep_words(metric, chosen), Catch::Contains("a model of words alone"));
 }

@@ -115,6 +115,8 @@ TEST_CASE("A plot puts points where its axes say and is well-formed") {
 
 TEST_CASE("Ticks are round numbers within the axis") {
     CHECK(ism::detail::axis_ticks({0, 1}).size() == 6);
+    CHECK(ism::detail::axis_ticks({1e16, 1e16 + 2}).size() <=
+          11);  // where numbers lie farther apart than ticks
     CHECK(ism::detail::axis_ticks({0, 50}) == std::vector<double>{0, 10, 20, 30, 40, 50});
     CHECK(ism::detail::axis_ticks({-3, 4}) == std::vector<double>{-2, 0, 2, 4});
     for (const double span : {1e-7, 0.3, 1.7, 23.0, 4e6}) {
@@ -198,6 +200,9 @@ TEST_CASE("A report is one well-formed page whose text cannot become markup") {
     REQUIRE(linked.files.size() == 1);
     CHECK(linked.files[0].bytes == picture->file);
     CHECK(contains(page, "href=\"r-images/1.jpg\""));
+    linked.folder.clear();  // a second page, with pictures beside it
+    CHECK(contains(ism::to_html(report, &linked), "href=\"2.jpg\""));
+    CHECK(linked.files.size() == 2);
     CHECK_FALSE(contains(page, "base64"));
     CHECK_THROWS_AS(ism::to_html({.title = "", .sections = {{.parts = {ism::ReportFigure{}}}}}), ism::Error);
 }
@@ -333,4 +338,11 @@ TEST_CASE("The section on an image tells why each detection was found") {
                             .summary = {},
                             .sections = {ism::detection_pages("", ism::RgbImage(4, 4), {}, names).section}}))
               .empty());
+}
+
+TEST_CASE("A label of a class without a name is refused") {
+    const std::vector<std::string> names{"cup"};
+    const std::vector<ism::ShownLabel> labels{{.class_index = 1, .box = {2, 2, 5, 5}, .missed = true}};
+    CHECK_THROWS_WITH(ism::detection_pages("a.png", ism::RgbImage(40, 20), {}, names, {.labels = labels}),
+                      "class of a label: expected below 1, got 1");
 }

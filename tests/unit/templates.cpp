@@ -404,6 +404,10 @@ TEST_CASE("what templates cannot be learnt from is refused by name") {
     for (ism::TrainingView& view : features.views) view.pixels = {};
     CHECK_THROWS_WITH(ism::learn_templates(words, features),
                       "templates: training images with pixels: expected 1 or more, got 0");
+    features = pattern_features();
+    features.objects.pop_back();
+    CHECK_THROWS_WITH(ism::learn_templates(words, features),
+                      Catch::StartsWith("templates: objects of the model"));
     const auto test = pattern_picture(0, 71, 53, 90);
     CHECK_THROWS_WITH(ism::detect(model_with_templates(), test.frame,
                                   Recognition{.rescorer = {.rivals = {.other_classes = -1}}}, 1),

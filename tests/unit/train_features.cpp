@@ -190,6 +190,25 @@ TEST_CASE("more examples of a class that is known join it by name") {
     CHECK(joined.views[9].mirrored);
 }
 
+TEST_CASE("what one picture shows by later labels is no background of it before") {
+    const auto with_label = [](const ism::Box& box, std::uint8_t shade) {
+        ism::TrainingFeatures features;
+        features.class_names = {"a"};
+        features.views.resize(1);
+        features.views[0].labels = {{.class_index = 0, .box = box}};
+        features.views[0].pixels = ism::RgbImage(20, 20, {shade, 0, 0});
+        return features;
+    };
+    const ism::Box left{0, 0, 8, 8}, right{10, 0, 8, 8};
+    const auto joined = ism::append(with_label(left, 1), with_label(right, 1));
+    REQUIRE(joined.views.size() == 2);
+    CHECK(joined.views[0].ignored == std::vector<ism::Box>{right});
+    CHECK(joined.views[1].ignored == std::vector<ism::Box>{left});
+    const auto others = ism::append(with_label(left, 1), with_label(right, 2));
+    CHECK(others.views[0].ignored.empty());
+    CHECK(others.views[1].ignored.empty());
+}
+
 TEST_CASE("category ids of classes that are joined stay, and a new class never gets one that is taken") {
     ism::TrainingFeatures first, more;
     first.class_names = {"a", "b"}, first.category_ids = {5, 2};

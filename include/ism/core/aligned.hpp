@@ -43,7 +43,8 @@ private:
 
 /// @brief The next multiple of the floats in a cache line.
 [[nodiscard]] constexpr int whole_lines(int floats) {
-    return (floats + 15) / 16 * 16;
+    constexpr int in_line = sizeof(CacheLine) / sizeof(float);
+    return (floats + in_line - 1) / in_line * in_line;
 }
 
 }  // namespace ism

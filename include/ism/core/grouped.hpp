@@ -32,7 +32,7 @@ public:
     }
 
     /// @brief Number of groups.
-    [[nodiscard]] std::size_t size() const { return offsets_.size() - 1; }
+    [[nodiscard]] std::size_t size() const { return offsets_.empty() ? 0 : offsets_.size() - 1; }
     [[nodiscard]] bool empty() const { return size() == 0; }
 
     [[nodiscard]] std::span<const T> operator[](std::size_t group) const {
@@ -53,6 +53,7 @@ public:
     /// @brief Adds a group, of any list of values.
     template <class Values = std::vector<T>>
     void push_back(const Values& group) {
+        if (offsets_.empty()) offsets_.push_back(0);  // as it is where the content was moved away
         for (const T& value : group) values_.push_back(value);
         offsets_.push_back(static_cast<std::uint32_t>(values_.size()));
     }

@@ -19,7 +19,7 @@ namespace ism {
     const int width = image.width(), height = image.height();
     radius = std::min(radius, std::max(width, height));  // more is no more
     GrayImage result(width, height);
-    // Running sums in double: what comes in goes out again without a trace.
+    // Running sums in double: of numbers within 0 ... 1 what goes out again leaves no trace.
     std::vector<double> columns(std::size_t(width), 0.0);
     const auto add_row = [&](int y, double sign) {
         const auto row = image.row(y);
@@ -72,7 +72,9 @@ namespace detail {
 /// resolution than the guide it is applied to (He and Sun 2015).
 /// @param guide, image  of one size
 /// @param radius        of the windows, pixels
-/// @param epsilon       variance of the guide below which a window counts as flat
+/// @param epsilon       variance of the guide below which a window counts as flat; below 1e-6 slopes are
+/// errors of
+///                      rounding, of guides 0 … 1
 /// @throws Error for images of different sizes, a radius below 0, or an epsilon that is not above 0.
 [[nodiscard]] inline GuidedFit guided_fit(const ColorPlanes& guide, ImageView<const float> image, int radius,
                                           double epsilon) {

@@ -187,29 +187,40 @@ template <Pixel T>
     return image;
 }
 
+namespace detail {
+
+/// The four pixels around a place of an image, and how far it lies from the first of them; outside the image
+/// it is the nearest place of its edge.
+struct BilinearPlace {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    float ax = 0, ay = 0;
+
+    BilinearPlace(int width, int height, float x, float y) {
+        const float cx = std::min(std::max(0.0f, x), static_cast<float>(width - 1));
+        const float cy = std::min(std::max(0.0f, y), static_cast<float>(height - 1));
+        x0 = static_cast<int>(cx), y0 = static_cast<int>(cy);
+        x1 = x0 + 1 < width ? x0 + 1 : x0, y1 = y0 + 1 < height ? y0 + 1 : y0;
+        ax = cx - static_cast<float>(x0), ay = cy - static_cast<float>(y0);
+    }
+};
+
+}  // namespace detail
+
 /// @brief The value between pixels by bilinear interpolation; outside the image the edge pixels are repeated.
 /// NaN counts as 0. The image must not be empty.
 [[nodiscard]] inline float sample_bilinear(ImageView<const float> image, float x, float y) {
-    const float cx = std::min(std::max(0.0f, x), static_cast<float>(image.width() - 1));
-    const float cy = std::min(std::max(0.0f, y), static_cast<float>(image.height() - 1));
-    const int x0 = static_cast<int>(cx), y0 = static_cast<int>(cy);
-    const int x1 = x0 + 1 < image.width() ? x0 + 1 : x0, y1 = y0 + 1 < image.height() ? y0 + 1 : y0;
-    const float ax = cx - static_cast<float>(x0), ay = cy - static_cast<float>(y0);
-    return (1 - ay) * ((1 - ax) * image(x0, y0) + ax * image(x1, y0)) +
-           ay * ((1 - ax) * image(x0, y1) + ax * image(x1, y1));
+    const detail::BilinearPlace p(image.width(), image.height(), x, y);
+    return (1 - p.ay) * ((1 - p.ax) * image(p.x0, p.y0) + p.ax * image(p.x1, p.y0)) +
+           p.ay * ((1 - p.ax) * image(p.x0, p.y1) + p.ax * image(p.x1, p.y1));
 }
 
 /// @brief The colour between pixels, likewise.
 [[nodiscard]] inline Rgb sample_bilinear(ImageView<const Rgb> image, float x, float y) {
-    const float cx = std::min(std::max(0.0f, x), static_cast<float>(image.width() - 1));
-    const float cy = std::min(std::max(0.0f, y), static_cast<float>(image.height() - 1));
-    const int x0 = static_cast<int>(cx), y0 = static_cast<int>(cy);
-    const int x1 = x0 + 1 < image.width() ? x0 + 1 : x0, y1 = y0 + 1 < image.height() ? y0 + 1 : y0;
-    const float ax = cx - static_cast<float>(x0), ay = cy - static_cast<float>(y0);
+    const detail::BilinearPlace p(image.width(), image.height(), x, y);
     const auto mixed = [&](std::uint8_t Rgb::*channel) {
-        const float upper = (1 - ax) * image(x0, y0).*channel + ax * image(x1, y0).*channel;
-        const float lower = (1 - ax) * image(x0, y1).*channel + ax * image(x1, y1).*channel;
-        return static_cast<std::uint8_t>((1 - ay) * upper + ay * lower + 0.5f);
+        const float upper = (1 - p.ax) * image(p.x0, p.y0).*channel + p.ax * image(p.x1, p.y0).*channel;
+        const float lower = (1 - p.ax) * image(p.x0, p.y1).*channel + p.ax * image(p.x1, p.y1).*channel;
+        return static_cast<std::uint8_t>((1 - p.ay) * upper + p.ay * lower + 0.5f);
     };
     return {mixed(&Rgb::r), mixed(&Rgb::g), mixed(&Rgb::b)};
 }

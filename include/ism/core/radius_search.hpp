@@ -30,7 +30,7 @@ public:
 
     RadiusSearch() = default;
 
-    /// @throws Error for a coordinate that is not finite, or more than 2³² − 1 points.
+    /// @throws Error for a coordinate that is not finite, or 2³² − 1 points or more.
     explicit RadiusSearch(std::vector<Point> points) : points_(std::make_unique<Points>()) {
         expect(points.size() < 0xffffffffu, "radius search: points", "fewer than 2^32 - 1", points.size());
         for (const Point& point : points)

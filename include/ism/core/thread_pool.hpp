@@ -73,7 +73,8 @@ private:
     class Running {
     public:
         explicit Running(std::atomic<bool>& running) : running_(running) {
-            expect(!running_.exchange(true), "thread pool", "one loop at a time", "a loop within a loop");
+            expect(!running_.exchange(true), "thread pool", "one loop at a time",
+                   "another, within a loop or of another thread");
         }
         Running(const Running&) = delete;
         Running& operator=(const Running&) = delete;

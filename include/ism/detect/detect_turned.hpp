@@ -163,6 +163,12 @@ template <Callable<const Frame&> Find>
             detail::keep_more_probable(all.next_best, std::move(object));
     }
     all.objects = std::move(strongest);
+    // What one look was not sure of another may have told.
+    if (all.next_best && detail::any_of(all.objects, [&](const Detection& object) {
+            return object.class_index == all.next_best->class_index &&
+                   is_one_object(object.box, all.next_best->box);
+        }))
+        all.next_best.reset();
     return all;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -48,11 +49,16 @@ struct Segmentation {
 };
 
 /// @brief Validates a segmentation.
-/// @throws Error where a map is of another size than the mask.
+/// @throws Error where a map is of another size than the mask, or the box is none.
 inline void check(const Segmentation& part) {
     for (const GrayImage* map : {&part.figure, &part.ground})
         expect(map->width() == part.mask.width() && map->height() == part.mask.height(),
                "segmentation: maps of figure and ground", size_text(part.mask), size_text(*map));
+    if (const std::optional<Box>& box = part.box)
+        expect(std::isfinite(box->x + box->y) && box->width > 0 && box->height > 0 &&
+                   std::isfinite(box->width + box->height),
+               "segmentation: box", "finite numbers, with sides above 0",
+               lazy_text(box->x, ", ", box->y, ", ", box->width, ", ", box->height));
 }
 
 /// @brief The mask of a segmentation at image resolution; what reaches outside the image is cut off.
@@ -78,8 +84,8 @@ struct Detection {
     double depth_m = no_depth;         ///< along the optical axis, metres; NaN = not known
     std::optional<Point3> position_m;  ///< in the camera frame; where camera and depth are known
     double position_error_m =
-        std::numeric_limits<double>::quiet_NaN();  ///< standard error of position_m, by
-                                                   ///< how its votes scatter; NaN = not known
+        std::numeric_limits<double>::quiet_NaN();  ///< what position_m may be off by: how far its
+                                                   ///< votes scatter, r.m.s.; NaN = not known
     double size_m =
         std::numeric_limits<double>::quiet_NaN();  ///< of the training objects of its votes, as
                                                    ///< TrainingObject::size_m; NaN = not of votes with poses

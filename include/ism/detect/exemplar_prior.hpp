@@ -70,9 +70,12 @@ public:
 
     /// @param views  of the boxes it is compared in, see compared_boxes(); the first is the box itself
     /// @param among  indices of the model's exemplars that are asked
+    /// @throws Error where there is no view or exemplar.
     ExemplarPrior(const Model& model, std::span<const std::uint32_t> among,
                   std::span<const ExemplarView> views, const ExemplarOptions& options)
         : options_(options) {
+        expect(!among.empty() && !views.empty(), "masks that are lent: exemplars and views",
+               "1 or more of each", lazy_text(among.size(), " and ", views.size()));
         std::vector<std::vector<std::uint8_t>> mirrored;
         std::vector<double> lengths;
         std::vector<detail::ExemplarSums> box_sq;

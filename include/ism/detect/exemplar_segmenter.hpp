@@ -86,7 +86,7 @@ inline void check(const ExemplarSegmenter& options) {
     in_range("ExemplarSegmenter::min_prior", options.min_prior, 1e-6, 0.5, "1e-6 ... 0.5");
     in_range("ExemplarSegmenter::max_log_ratio", options.max_log_ratio, 0, 100, "0 ... 100");
     in_range("ExemplarSegmenter::filter_radius", options.filter_radius, 0, 1, "0 ... 1");
-    in_range("ExemplarSegmenter::filter_epsilon", options.filter_epsilon, 1e-9, 1e3, "1e-9 ... 1e3");
+    in_range("ExemplarSegmenter::filter_epsilon", options.filter_epsilon, 1e-6, 1e3, "1e-6 ... 1e3");
     in_range("ExemplarSegmenter::least_piece", options.least_piece, 0, 1, "0 ... 1");
     in_range("ExemplarSegmenter::cuts", options.cuts, 1, 10, "1 ... 10");
 }

@@ -22,7 +22,7 @@
 
 namespace ism {
 
-/// @brief The value below which half of the weight lies; NaN without weight.
+/// @brief The value below which half of the weight lies; NaN without values.
 [[nodiscard]] inline double weighted_median(const std::vector<double>& values,
                                             const std::vector<double>& weights) {
     std::vector<detail::Ranked> order(values.size());
@@ -196,8 +196,10 @@ template <Kernel K, std::size_t Dimension>
 }
 
 /// @brief Which votes can be of an object in a scene, by its size and the sizes of the training objects.
+/// @throws Error for a model without training objects, or a largest size below the smallest.
 [[nodiscard]] inline VoteLimits vote_limits(const Scene& scene, const DetectOptions& options) {
     const std::vector<TrainingObject>& objects = scene.model.shapes.objects;
+    expect(!objects.empty(), "detection: training objects of the model", "1 or more", 0);
     float smallest_px = objects.front().size_px, largest_px = smallest_px;
     for (const TrainingObject& object : objects) {
         smallest_px = std::min(smallest_px, object.size_px);
@@ -218,7 +220,6 @@ template <Kernel K, std::size_t Dimension>
 }
 
 /// @brief Casts the votes of a scene within limits.
-/// @throws Error for a model without training objects.
 template <VoteSpaceType Space>
 [[nodiscard]] std::vector<Vote<Space::dimension>> cast_votes(const Scene& scene, MatchMode matching,
                                                              const VoteLimits& limits) {

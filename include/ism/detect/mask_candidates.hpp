@@ -37,7 +37,8 @@ struct MaskCandidateOptions {
         options.segments.min_share * double(scene.surface->width()) * scene.surface->height();
     std::vector<RegionMask> candidates = std::move(found.segments);
     for (RegionMask& mask : of_votes)
-        if (double(area_of(mask)) >= least) candidates.push_back(std::move(mask));
+        if (const auto area = area_of(mask); area > 0 && double(area) >= least)
+            candidates.push_back(std::move(mask));
     return without_duplicates(std::move(candidates), options.segments.max_iou);
 }
 

@@ -56,7 +56,7 @@ namespace ism {
 /// class, and how many of these count at most: chosen on halves of the training images of four sets.
 inline constexpr double mask_weight = 0.15, most_sq_deviation = 9;
 /// @brief The most that mask_log_odds() gives.
-inline constexpr double most_mask_log_odds = 3 * mask_weight;
+inline constexpr double most_mask_log_odds = double(MaskMeasures{}.values().size()) * mask_weight;
 
 /// @brief What a mask adds to the logarithm of the odds that it shows an object of a class: nothing where it
 /// is as unlike the mean as objects of the class are, more where it is more like it, less where it is less
@@ -78,29 +78,22 @@ inline constexpr double most_mask_log_odds = 3 * mask_weight;
 /// is said.
 /// @param detections  of one image, cut out
 inline void weigh_masks(std::vector<Detection>& detections, const Model& model, ThreadPool& pool) {
-    struct Evidence {
-        double odds = 0;                  // before, in logarithms
-        std::optional<double> mask = {};  // own
-    };
-    std::vector<Evidence> evidence(detections.size());
+    std::vector<double> odds(detections.size(), 0);  // without masks, in logarithms
+    std::vector<std::optional<double>> own(detections.size());
     pool.for_each(detections.size(), [&](std::size_t i, unsigned) {
         const Detection& detection = detections[i];
         const std::uint32_t c = detection.class_index;
         if (detection.box_reasons.empty() || c >= model.typical_masks.size()) return;
-        evidence[i].odds = detection.box_reasons.sum() - detection.box_reasons.mask;
+        odds[i] = detection.box_reasons.sum() - detection.box_reasons.mask;
         if (const TypicalMask& typical = model.typical_masks[c]; typical.known())
-            evidence[i].mask = mask_log_odds(measure_mask(detection.segmentation, detection.box), typical);
+            own[i] = mask_log_odds(measure_mask(detection.segmentation, detection.box), typical);
     });
     for (std::size_t i = 0; i < detections.size(); ++i) {
         Detection& detection = detections[i];
-        if (!evidence[i].mask) continue;
-        std::size_t leader = i;
-        for (std::size_t j = 0; j < detections.size(); ++j)
-            if (evidence[j].odds > evidence[leader].odds && is_rival(detections[j], detection)) leader = j;
-        if (!(model.template_calibration.curves[detection.class_index].slope > 0)) continue;
+        if (!own[i] || !(model.template_calibration.curves[detection.class_index].slope > 0)) continue;
         const double before = detection.box_reasons.mask;
-        detection.box_reasons.mask =
-            std::min(*evidence[i].mask, evidence[leader].mask.value_or(most_mask_log_odds));
+        const std::optional<double>& rival = own[strongest_rival(detections, odds, i)];
+        detection.box_reasons.mask = std::min(*own[i], rival.value_or(most_mask_log_odds));
         change_log_odds(detection, detection.box_reasons.mask - before, model.template_calibration);
     }
 }

@@ -68,6 +68,22 @@ template <Segmenter S>
         return probability;
 }
 
+/// What own policies give is looked at once, where it is clear whose it is.
+inline void check_score(double score, const char* policy) {
+    expect(std::isfinite(score) && score >= 0, lazy_text(policy, ": score"), "a number of 0 or more", score);
+}
+
+inline void check_rescored(const std::vector<Detection>& hypotheses, std::size_t classes) {
+    for (const Detection& hypothesis : hypotheses) {
+        const Box& box = hypothesis.box;
+        check_score(hypothesis.score, "rescorer");
+        expect(hypothesis.class_index < classes, "rescorer: class", lazy_text("below ", classes),
+               hypothesis.class_index);
+        expect(std::isfinite(box.x + box.y + box.width + box.height), "rescorer: box", "finite numbers",
+               "others");
+    }
+}
+
 /// From hypotheses on: the same code for every vote space.
 template <Rescorer R, Segmenter S, Verifier V>
 [[nodiscard]] Detections judge_hypotheses(Scene&& scene, std::vector<Detection> hypotheses,
@@ -75,6 +91,7 @@ template <Rescorer R, Segmenter S, Verifier V>
                                           const V& verifier, DetectionStats stats) {
     Stopwatch watch;
     hypotheses = rescorer.rescore(std::move(hypotheses), scene);
+    check_rescored(hypotheses, scene.model.shapes.class_names.size());
     sort_by_score(hypotheses);
     stats.candidates = hypotheses.size();
     keep_first(hypotheses, options.max_hypotheses);
@@ -96,6 +113,7 @@ template <Rescorer R, Segmenter S, Verifier V>
     const bool masks_first = needs_masks(verifier);
     if (masks_first) segment(hypotheses);
     std::vector<Verified> verified = verifier.verify(hypotheses, scene);
+    for (const Verified& one : verified) check_score(one.score, "verifier");
     sort_by_score(verified);
     Detections result;
     const double least =
@@ -154,7 +172,6 @@ void check(const Recognition<Space, K, R, S, V>& recognition, const Frame& frame
 template <VoteSpaceType Space, Kernel K, Rescorer R, Segmenter S, Verifier V>
 [[nodiscard]] Detections recognise(Scene scene, const Recognition<Space, K, R, S, V>& recognition) {
     check(recognition, scene.frame);
-    expect(!scene.model.shapes.objects.empty(), "detection: training objects of the model", "1 or more", 0);
     DetectionStats stats{.features = scene.features.size(),
                          .matches = scene.matches.size(),
                          .extract_ms = scene.extract_ms,

@@ -15,8 +15,8 @@ namespace ism {
 
 /// @brief Judges hypotheses by more than their votes. To model it, write a small struct with its options as
 /// members and `std::vector<Detection> rescore(std::vector<Detection>, const Scene&) const`, which gives new
-/// scores, and may also drop hypotheses, add some, or move their boxes. What it learns in training it reads
-/// from the scene's model.
+/// scores, 0 or more, and may also drop hypotheses, add some, or move their boxes. What it learns in training
+/// it reads from the scene's model.
 template <class R>
 concept Rescorer = std::copyable<R> &&
     requires(const R& rescorer, std::vector<Detection> hypotheses, const Scene& scene) {

@@ -28,7 +28,9 @@ inline constexpr double rival_iou = 0.25;
 /// @param calibration  that gave it its probability, with a slope above 0 for its class
 inline void change_log_odds(Detection& detection, double change, const Calibration& calibration) {
     const std::uint32_t c = detection.class_index;
-    detection.score *= std::exp(change / calibration.curves[c].slope);
+    using Score = std::numeric_limits<double>;  // flat curves ask for scores beyond all numbers
+    const double factor = std::min(std::exp(change / calibration.curves[c].slope), Score::max());
+    detection.score = std::clamp(detection.score * factor, Score::min(), Score::max());
     detection.probability = calibration.probability(c, detection.score);
 }
 
@@ -37,19 +39,15 @@ inline void change_log_odds(Detection& detection, double change, const Calibrati
     return other.class_index != detection.class_index && iou(other.box, detection.box) >= rival_iou;
 }
 
-/// @brief By how much the most probable box of another class at about the same place leads each detection, in
-/// logarithms of odds; 0 where none does.
+/// @brief The most probable box of another class at about the same place as detection i; i itself where none
+/// is more probable.
 /// @param odds  logarithms of each detection's
-[[nodiscard]] inline std::vector<double> rival_leads(const std::vector<Detection>& detections,
-                                                     const std::vector<double>& odds) {
-    std::vector<double> leads;
-    for (std::size_t i = 0; i < detections.size(); ++i) {
-        double strongest = odds[i];
-        for (std::size_t j = 0; j < detections.size(); ++j)
-            if (odds[j] > strongest && is_rival(detections[j], detections[i])) strongest = odds[j];
-        leads.push_back(strongest - odds[i]);
-    }
-    return leads;
+[[nodiscard]] inline std::size_t strongest_rival(const std::vector<Detection>& detections,
+                                                 const std::vector<double>& odds, std::size_t i) {
+    std::size_t strongest = i;
+    for (std::size_t j = 0; j < detections.size(); ++j)
+        if (odds[j] > odds[strongest] && is_rival(detections[j], detections[i])) strongest = j;
+    return strongest;
 }
 
 /// @brief Whether a box may show a part of what another shows.
@@ -127,8 +125,8 @@ inline void yield_to_rivals(std::vector<Detection>& detections, const Calibratio
     std::vector<double> alone;
     for (const Detection& d : detections) alone.push_back(d.box_reasons.sum() - d.box_reasons.rivals);
     std::vector<double> odds = alone;
-    const std::vector<double> leads = rival_leads(detections, alone);
-    for (std::size_t i = 0; i < odds.size(); ++i) odds[i] -= options.other_classes * leads[i];
+    for (std::size_t i = 0; i < odds.size(); ++i)
+        odds[i] -= options.other_classes * (alone[strongest_rival(detections, alone, i)] - alone[i]);
     if (options.wholes_and_parts) odds = odds_of_wholes_and_parts(detections, odds);
     for (std::size_t i = 0; i < odds.size(); ++i) {
         Detection& detection = detections[i];

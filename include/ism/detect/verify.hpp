@@ -17,7 +17,7 @@
 
 namespace ism {
 
-/// @brief A hypothesis that stays, and the score it stays with.
+/// @brief A hypothesis that stays, and the score it stays with, 0 or more.
 struct Verified {
     std::size_t index = 0;
     double score = 0;
@@ -159,8 +159,8 @@ struct Mdl {
 
 private:
     [[nodiscard]] double worth(const Segmentation& part, int x, int y) const {
-        const double figure = part.figure(x, y), ground = part.ground(x, y);
-        return 1 - k2_over_k0 + k2_over_k0 * figure / (figure + ground);
+        const double figure = part.figure(x, y), all = figure + double(part.ground(x, y));
+        return 1 - k2_over_k0 + k2_over_k0 * (all > 0 ? figure / all : 1);  // of no maps the mask counts
     }
 
     /// What of `weaker` lies in the mask of `other` too, in parts of the box of `weaker`.

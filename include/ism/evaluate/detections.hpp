@@ -26,8 +26,8 @@ namespace ism {
 
 /// @brief Measures detections, those of each image of a data set in its order, against the data set. The
 /// classes of the model must be those of the data set in its order: select_classes() puts them so. Crowds are
-/// ignored, boxes are clipped to their image; masks are compared where the data set has them, two at a time
-/// in memory.
+/// ignored, boxes are clipped to their image, and what lies outside of it is not counted nor judged; masks
+/// are compared where the data set has them, two at a time in memory.
 /// @throws Error where there are detections of more or fewer images, of a class that the data set lacks, or a
 /// score or box is not finite; FileError as read_mask() does.
 template <MatchRule R>
@@ -42,6 +42,7 @@ template <MatchRule R>
         const std::vector<FoundObject> objects = found_objects(detections[i].objects, i);
         for (std::size_t k = 0; k < objects.size(); ++k) {
             FoundObject object = objects[k];
+            check(object);
             object.box = clipped(object.box, dataset.images[i].width, dataset.images[i].height);
             if (!(object.box.area() > 0)) continue;
             found.push_back(object);

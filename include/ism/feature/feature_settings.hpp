@@ -90,17 +90,17 @@ struct ListParameters {
 struct SetParameters {
     const std::vector<Parameter>& list;
     const std::string& part;
-    std::size_t count = 0;
+    std::size_t& count;  // of a visitor that may be copied
 
     template <class T>
     requires std::integral<T> || std::floating_point<T>
-    void operator()(const char* name, T& value) {
+    void operator()(const char* name, T& value) const {
         const bool fits = set(value, next(name));
         expect(fits, lazy_text(part, ": ", name), "a value of its kind", "another");
     }
 
     /// The parameter of this name, which is counted.
-    [[nodiscard]] const Parameter& next(const char* name) {
+    [[nodiscard]] const Parameter& next(const char* name) const {
         std::size_t i = 0;
         while (i < list.size() && list[i].name != name) ++i;
         expect(i < list.size(), lazy_text(part, ": parameter"), name, "none of this name");
@@ -150,9 +150,9 @@ template <HasParameters T>
 template <HasParameters T>
 [[nodiscard]] T with_parameters(const std::vector<Parameter>& list, const std::string& name) {
     T part;
-    SetParameters set{list, name};
-    if constexpr (!std::is_empty_v<T>) T::each_parameter(part, set);
-    expect(set.count == list.size(), lazy_text(name, ": number of parameters"), set.count, list.size());
+    std::size_t count = 0;
+    if constexpr (!std::is_empty_v<T>) T::each_parameter(part, SetParameters{list, name, count});
+    expect(count == list.size(), lazy_text(name, ": number of parameters"), count, list.size());
     return part;
 }
 

@@ -21,14 +21,9 @@ namespace ism {
     expect(quality >= 1 && quality <= 100, "JPEG quality", "1 to 100", quality);
     const std::vector<Rgb> pixels = detail::gapless(image);
     std::vector<std::uint8_t> file;
-    const auto append = [](void* to, void* data, int size) {
-        const auto* bytes = static_cast<const std::uint8_t*>(data);
-        auto& out = *static_cast<std::vector<std::uint8_t>*>(to);
-        out.insert(out.end(), bytes, bytes + size);
-    };
-    expect(
-        stbi_write_jpg_to_func(append, &file, image.width(), image.height(), 3, pixels.data(), quality) != 0,
-        "JPEG", "memory to pack it", "none");
+    expect(stbi_write_jpg_to_func(detail::append_bytes, &file, image.width(), image.height(), 3,
+                                  pixels.data(), quality) != 0,
+           "JPEG", "memory to pack it", "none");
     return file;
 }
 

@@ -37,16 +37,19 @@ template <class T>
     return samples;
 }
 
+/// @brief Takes bytes of a file from stb.
+/// @param file  std::vector<std::uint8_t>*
+inline void append_bytes(void* file, void* data, int size) {
+    const auto* bytes = static_cast<const std::uint8_t*>(data);
+    auto& out = *static_cast<std::vector<std::uint8_t>*>(file);
+    out.insert(out.end(), bytes, bytes + size);
+}
+
 /// @brief Gapless samples of 8 bits, `channels` a pixel, as the bytes of a PNG file.
 [[nodiscard]] inline std::vector<std::uint8_t> stb_png(int width, int height, int channels,
                                                        const void* samples) {
     std::vector<std::uint8_t> file;
-    const auto append = [](void* to, void* data, int size) {
-        const auto* bytes = static_cast<const std::uint8_t*>(data);
-        auto& out = *static_cast<std::vector<std::uint8_t>*>(to);
-        out.insert(out.end(), bytes, bytes + size);
-    };
-    expect(stbi_write_png_to_func(append, &file, width, height, channels, samples, 0) != 0, "PNG",
+    expect(stbi_write_png_to_func(append_bytes, &file, width, height, channels, samples, 0) != 0, "PNG",
            "memory to pack it", "none");
     return file;
 }

@@ -197,8 +197,9 @@ enum class ImageFormat { unknown, png, jpeg, bmp, pnm };
 }
 
 [[nodiscard]] inline std::string bmp_damage(ByteSpan bytes, std::int64_t width, std::int64_t height) {
-    if (bytes.size() < 54) return "a truncated BMP";
+    if (bytes.size() < 26) return "a truncated BMP";
     const bool old = little_endian(bytes, 14, 4) == 12;  // the shorter header of OS/2
+    if (!old && bytes.size() < 54) return "a truncated BMP";
     const std::int64_t bits = little_endian(bytes, old ? 24 : 28, 2);
     const std::int64_t needed = little_endian(bytes, 10, 4) + (width * bits + 31) / 32 * 4 * height;
     return std::int64_t(bytes.size()) < needed ? "a truncated BMP" : "";

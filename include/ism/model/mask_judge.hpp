@@ -18,7 +18,7 @@ inline constexpr std::size_t color_histogram_bins = 42;
 inline constexpr std::size_t shape_histogram_bins = 48;
 
 /// @brief What a region of an RGB-D image looks like: roots of shares, so that squares of a histogram add up
-/// to 1. Without depth the shape is all 0, without colour the colours are.
+/// to 1. Without depth the shape is all 0; colours of a grey picture are greys.
 struct MaskLook {
     std::array<float, color_histogram_bins> color{};
     std::array<float, shape_histogram_bins> shape{};
@@ -46,7 +46,7 @@ struct MaskJudge {
     MaskCues mean = {}, deviation = {};  ///< of the cues in training
     MaskCues weights = {};               ///< of the cues, brought to mean 0 and deviation 1
     float bias = 0;
-    float shape_bin_m = 0.04f;  ///< width of a bin of distances, from the sizes of the training objects
+    float shape_bin_m = 0.04f;  ///< width of a bin of distances
 
     [[nodiscard]] bool empty() const { return examples.empty(); }
     [[nodiscard]] bool operator==(const MaskJudge&) const = default;

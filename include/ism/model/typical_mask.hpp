@@ -17,7 +17,7 @@ struct MaskMeasures {
     [[nodiscard]] bool operator==(const MaskMeasures&) const = default;
 
     /// @brief All of them, to be computed with.
-    [[nodiscard]] std::array<double, 3> values() const { return {extent, certainty, raggedness}; }
+    [[nodiscard]] constexpr std::array<double, 3> values() const { return {extent, certainty, raggedness}; }
 };
 
 /// @brief What masks of a class are like: mean and standard deviation of each measure. Not known where a

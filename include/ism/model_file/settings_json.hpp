@@ -105,10 +105,12 @@ void each_extract_parameter(Options& options, Visit&& visit) {
     expect<FileError>(settings.sq_length > 0, lazy_text(place, ": sq_length"), "above 0", settings.sq_length);
     const std::string part = "extraction";
     const auto extraction = parameters_from_json(member(json, "extraction", place), place + ", extraction");
-    SetParameters set{extraction, part};
-    at_place(place, [&] { each_extract_parameter(settings.options, set); });
-    expect<FileError>(set.count == extraction.size(), lazy_text(place, ", extraction: number of parameters"),
-                      set.count, extraction.size());
+    std::size_t count = 0;
+    at_place(place, [&] {
+        each_extract_parameter(settings.options, SetParameters{extraction, part, count});
+    });
+    expect<FileError>(count == extraction.size(), lazy_text(place, ", extraction: number of parameters"),
+                      count, extraction.size());
     at_place(place + ", extraction", [&] { check(settings.options); });
     return settings;
 }

@@ -118,6 +118,7 @@ namespace detail {
                                                std::size_t which, std::span<const std::string> class_names,
                                                const OverlayOptions& options = {}) {
     expect(options.panel_px >= 16, "OverlayOptions::panel_px", "16 or more pixels", options.panel_px);
+    expect(!detections.objects.empty(), "detections to explain", "1 or more", 0);
     expect(which < detections.objects.size(), "index of a detection",
            lazy_text("below ", detections.objects.size()), which);
     const Detection& detection = detections.objects[which];

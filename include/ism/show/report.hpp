@@ -21,7 +21,8 @@ namespace ism {
 
 /// @brief Pictures that a page shows from files beside it.
 struct LinkedPictures {
-    std::string folder = {};  ///< as the page names it, with / between folders
+    std::string folder = {};  ///< the page's address of it, with / between folders and %20 for blanks; empty
+                              ///< = that of the page
     struct File {
         std::string name = {};  ///< in the folder
         std::vector<std::uint8_t> bytes = {};
@@ -150,7 +151,7 @@ using PagePictures = std::vector<const ReportPicture*>;
 /// is in the page once, or in a file beside it.
 /// @param linked  takes the pictures' files, to be written beside the page; none = they are in the page,
 /// which
-///                then needs no other file
+///                then needs no other file. Several pages may share it
 /// @throws Error where a figure shows no pixels.
 [[nodiscard]] inline std::string to_html(const Report& report, LinkedPictures* linked = nullptr) {
     detail::PagePictures pictures;
@@ -172,8 +173,9 @@ using PagePictures = std::vector<const ReportPicture*>;
         std::string address = std::string("data:image/") + (png ? "png" : "jpeg") + ";base64," +
                               (linked ? "" : base64(picture.file));
         if (linked) {
-            linked->files.push_back({join_text(i + 1, png ? ".png" : ".jpg"), picture.file});
-            address = linked->folder + "/" + linked->files.back().name;
+            linked->files.push_back(
+                {join_text(linked->files.size() + 1, png ? ".png" : ".jpg"), picture.file});
+            address = (linked->folder.empty() ? "" : linked->folder + "/") + linked->files.back().name;
         }
         html += join_text("<image id=\"p", i, "\" width=\"") + detail::svg_number(picture.width) +
                 "\" height=\"" + detail::svg_number(picture.height) +

@@ -128,8 +128,8 @@ namespace detail {
 
 /// @brief What a report shows of an image: all detections in it, beside what its labels tell; then, for those
 /// that are wrong and for the strongest, why they were found; and its mistakes one by one.
-/// @throws Error where the class of a detection has no name, its votes point to features that are not there,
-/// or its segmentation's parts differ in size.
+/// @throws Error where the class of a detection or label has no name, its votes point to features that are
+/// not there, or its segmentation's parts differ in size.
 [[nodiscard]] inline DetectionPages detection_pages(const std::string& title, ImageView<const Rgb> image,
                                                     const Detections& detections,
                                                     std::span<const std::string> class_names,
@@ -143,7 +143,11 @@ namespace detail {
     ReportFigure all = picture_figure(picture);
     all.width_px = figure_width_px(all.part, 640);
     for (std::size_t i = count; i-- > 0;) all.shapes += detail::found_svg(detections.objects[i]);
-    for (const ShownLabel& label : options.labels) all.shapes += detail::labelled_svg(label);
+    for (const ShownLabel& label : options.labels) {
+        expect(label.class_index < class_names.size(), "class of a label",
+               lazy_text("below ", class_names.size()), label.class_index);
+        all.shapes += detail::labelled_svg(label);
+    }
     std::string names;
     for (std::size_t i = 0; i < std::min(count, options.labelled); ++i) {
         const Detection& one = detections.objects[i];

@@ -57,7 +57,7 @@ inline void check(const ReportPictureOptions& options) {
 
 /// @brief How wide a figure is on the screen so that it is not higher than `most_px`.
 [[nodiscard]] inline int figure_width_px(const Box& part, int most_px) {
-    return std::max(60, int(std::lround(std::min(1.0, part.width / part.height) * most_px)));
+    return std::max(1, int(std::lround(std::min(1.0, part.width / part.height) * most_px)));
 }
 
 /// @brief A `rect` for a figure; `more` are further attributes.

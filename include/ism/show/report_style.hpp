@@ -32,6 +32,7 @@ dl { display: grid; grid-template-columns: repeat(auto-fit, minmax(9rem, 1fr)); 
 dt { color: var(--soft); font-size: .85rem; }
 dd { margin: 0; font-size: 1.1rem; font-weight: 600; overflow-wrap: anywhere; }
 .legend { display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; list-style: none; padding: 0; margin: 0 0 .6rem; }
+.legend li { overflow-wrap: anywhere; }
 .legend i { display: inline-block; width: 1.5rem; height: .8rem; margin-right: .4rem; vertical-align: -.05rem;
   border: 2px solid var(--c); border-radius: 2px; background: color-mix(in srgb, var(--c) 35%, transparent); }
 .legend i.dashed { border-style: dashed; background: #777; }

@@ -45,8 +45,9 @@ namespace detail {
     for (const double factor : {5.0, 2.0, 1.0})
         if (factor * power >= rough * 0.999) step = factor * power;
     std::vector<double> ticks;
-    for (double i = std::ceil(range.low / step - 1e-9); i * step <= range.high + 1e-9 * step; ++i)
-        ticks.push_back(i * step + 0.0);  // + 0: not −0
+    const double first = std::ceil(range.low / step - 1e-9);
+    for (int i = 0; i <= 10 && (first + i) * step <= range.high + 1e-9 * step; ++i)
+        ticks.push_back((first + i) * step + 0.0);  // + 0: not −0
     return ticks;
 }
 

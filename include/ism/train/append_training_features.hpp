@@ -41,10 +41,30 @@ namespace detail {
     return ids;
 }
 
+/// A picture that is in both shows what either of its views tells: none of it is background of the other.
+/// @return in how many pictures of `more` that is so
+inline std::size_t share_labels(std::vector<TrainingView>& all, std::vector<TrainingView>& more) {
+    std::size_t known = 0;
+    for (TrainingView& later : more) {
+        const auto same = [&](const TrainingView& view) {
+            return !view.pixels.empty() && view.pixels == later.pixels;
+        };
+        const auto first = std::find_if(all.begin(), all.end(), same);
+        if (first == all.end()) continue;
+        ++known;
+        const std::size_t own = later.ignored.size();
+        for (const ObjectLabel& label : first->labels) later.ignored.push_back(label.box);
+        for (std::size_t i = 0; i < own; ++i) first->ignored.push_back(later.ignored[i]);
+        for (const ObjectLabel& label : later.labels) first->ignored.push_back(label.box);
+    }
+    return known;
+}
+
 }  // namespace detail
 
 /// @brief Training features of more images: of more classes, or more examples of the same (by name). Category
-/// ids that are known stay; a new class gets the next free one where its own is taken.
+/// ids stay where both have them; a new class gets the next free one where its own is taken.
+/// Where views keep pixels, labels of one picture that comes again are told apart from background in both.
 /// @throws Error where the features were found and described in another way.
 [[nodiscard]] inline TrainingFeatures append(TrainingFeatures all, TrainingFeatures more) {
     expect(all.settings.size() == more.settings.size(), "training features to append: channels",
@@ -71,6 +91,7 @@ namespace detail {
         for (Occurrence& o : channel.occurrences) o.class_index = class_of[o.class_index];
     for (TrainingView& view : more.views)
         for (ObjectLabel& label : view.labels) label.class_index = class_of[label.class_index];
+    detail::share_labels(all.views, more.views);
     std::vector<TrainingFeatures> parts;
     parts.push_back(std::move(more));
     return detail::join_images(std::move(all), std::move(parts));

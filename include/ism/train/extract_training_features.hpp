@@ -156,6 +156,8 @@ private:
     expect(set.category_ids.empty() || set.category_ids.size() == classes, "training: category ids",
            lazy_text("none or ", classes), set.category_ids.size());
     expect(options.max_features > 0, "TrainingFeatureOptions::max_features", "1 or more", 0);
+    expect(options.views || !(options.pixels || options.depth), "TrainingFeatureOptions::views",
+           "true, to keep pixels or depth", "false");
 
     std::vector<double> sizes_px;
     std::vector<std::uint32_t> objects_of(classes, 0), features_of(classes, 0);

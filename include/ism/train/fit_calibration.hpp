@@ -26,13 +26,15 @@ struct ScoredExample {
 
 /// @brief Fits a logistic curve over the logarithm of scores (Platt 1999, with his targets of
 /// (N₊ + 1)/(N₊ + 2) and 1/(N₋ + 2), by Newton's method). Examples without score, and lists without both
-/// kinds, tell nothing of the slope: then the curve is flat at the share of positives.
+/// kinds, tell nothing of the slope: then the curve is flat at the share of positives, and so it is where
+/// higher scores are not more often right.
 [[nodiscard]] inline Calibration::Curve fit_curve(const std::vector<ScoredExample>& examples) {
     double positives = 0, negatives = 0;
     for (const ScoredExample& e : examples) (e.positive ? positives : negatives) += e.score > 0;
     const double high = (positives + 1) / (positives + 2), low = 1 / (negatives + 2);
-    Calibration::Curve curve{.slope = 0, .offset = std::log((positives + 1) / (negatives + 1))};
-    if (positives == 0 || negatives == 0) return curve;
+    const Calibration::Curve flat{.slope = 0, .offset = std::log((positives + 1) / (negatives + 1))};
+    if (positives == 0 || negatives == 0) return flat;
+    Calibration::Curve curve = flat;
     const auto loss = [&](const Calibration::Curve& at) {
         double sum = 0;
         for (const ScoredExample& e : examples) {
@@ -63,7 +65,8 @@ struct ScoredExample {
         }
         if (!better) break;
     }
-    return curve;
+    constexpr double least_slope = 0.01;  // scores a million times as high are hardly more probable
+    return curve.slope >= least_slope ? curve : flat;
 }
 
 /// @brief A curve for each class; one with few examples of either kind has that of all.

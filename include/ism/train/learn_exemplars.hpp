@@ -23,8 +23,7 @@ namespace ism {
 /// @throws Error where the model has templates or is of other objects, or no image has pixels.
 [[nodiscard]] inline Model learn_exemplars(Model model, const TrainingFeatures& features,
                                            std::size_t max_of_class = 300, unsigned threads = 0) {
-    expect(model.shapes.objects.size() == features.objects.size(), "exemplars: objects of the model",
-           features.objects.size(), model.shapes.objects.size());
+    detail::expect_same_objects(model, features, "exemplars");
     expect(max_of_class > 0, "exemplars: objects of a class", "1 or more", 0);
     expect(model.templates.empty(), "exemplars: templates of the model", "none before learn_exemplars()",
            model.templates.size());

@@ -49,7 +49,7 @@ namespace detail {
 /// @return empty where there is none
 [[nodiscard]] inline FigureColors learn_figure_colors(std::span<const ColoredObject> objects) {
     constexpr double margin = 0.25;  // around a box, in parts of its sides
-    constexpr int samples = 160;     // along the longer side
+    constexpr int samples = 160;     // at least, along the longer side of a larger region
     constexpr float rare = 1e-4f;    // part of the pixels that any colour has
     constexpr float limit = 3;
     const LabTable to_lab;

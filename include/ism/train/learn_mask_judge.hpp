@@ -207,7 +207,8 @@ inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
 /// @brief Adds to a model of learn_metric() the judge of masks, from the same training features, whose pixels
 /// and depth were kept: regions of each training image are compared with those of all others and with votes
 /// that its own features have no part in, nor those of images of the same things (depth_views()).
-/// @throws Error where no image has pixels, depth and camera.
+/// @throws Error for an option out of range, a model of other features, an image with depth without pixels,
+/// and where nothing is learnt: no image has depth and camera, or none shows a class of another.
 [[nodiscard]] inline Model learn_mask_judge(Model model, const TrainingFeatures& features,
                                             const MaskJudgeOptions& options = {}, unsigned threads = 0,
                                             const Progress& progress = {}) {
@@ -220,6 +221,10 @@ inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
         first_word.push_back(first_word.back() +
                              static_cast<std::uint32_t>(view->channels[0].features.size()));
     }
+    detail::expect_same_objects(model, features, "judge of masks");
+    expect(model.channels.size() == 1 && model.channels[0].codebook.size() == first_word.back(),
+           "judge of masks: words of the model", lazy_text("each feature one: ", first_word.back()),
+           model.words());
     MaskJudge judge;
     const WordIndex words(model.channels[0].codebook);
     // As the image is seen without itself, and, where others show the same things, without these too: what is
@@ -251,6 +256,8 @@ inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
     });
     detail::CueTable all;
     for (const detail::CueTable& table : tables) all.append(table);
+    expect(!all.cues.empty(), "judge of masks: regions to compare with those of other images", "1 or more",
+           "none: no other image shows the same class");
     detail::fit_mask_weights(judge, all.cues, all.right, options.cost);
     model.mask_judge = std::move(judge);
     return model;

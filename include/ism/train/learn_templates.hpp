@@ -247,11 +247,12 @@ struct FittedJudges {
 /// training features, whose pixels were kept (TrainingFeatureOptions::pixels). Where the model has exemplars
 /// (learn_exemplars()), also what masks of each class are like (weigh_masks()) and how boxes are placed by
 /// them (Placing).
-/// @throws Error where no pixels were kept, or an option is out of range.
+/// @throws Error where the model is of other objects, no pixels were kept, or an option is out of range.
 [[nodiscard]] inline Model learn_templates(Model model, const TrainingFeatures& features,
                                            const TemplateOptions& options = {}, unsigned threads = 0,
                                            const Progress& progress = {}) {
     check(options);
+    detail::expect_same_objects(model, features, "templates");
     const auto images = detail::template_images(model, features, threads, progress);
     expect(!images.empty(), "templates: training images with pixels", "1 or more", 0);
     const std::size_t classes = model.shapes.class_names.size();

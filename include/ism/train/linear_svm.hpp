@@ -75,10 +75,7 @@ template <RowNumber T = float>
     double upper = std::numeric_limits<double>::infinity();
     Random random(1);
     for (int round = 0; round < options.max_rounds; ++round) {
-        for (std::size_t i = 0; i < active; ++i)
-            std::swap(
-                order[i],
-                order[i + std::min(active - i - 1, std::size_t(random.uniform() * double(active - i)))]);
+        for (std::size_t i = 0; i < active; ++i) std::swap(order[i], order[i + random.index(active - i)]);
         double most = -std::numeric_limits<double>::infinity(),
                least = std::numeric_limits<double>::infinity();
         for (std::size_t s = 0; s < active; ++s) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -98,8 +99,9 @@ inline void expect_ellipse(Mask& mask) {
     Mask mask(objects[own.object].mask.width(), objects[own.object].mask.height());
     for (int y = 0; y < mask.height(); ++y)
         for (int x = 0; x < mask.width(); ++x) {
-            const int px = int(own.box.x + (x + 0.5) / mask.width() * own.box.width) - part.x,
-                      py = int(own.box.y + (y + 0.5) / mask.height() * own.box.height) - part.y;
+            const double cx = own.box.x + (x + 0.5) / mask.width() * own.box.width,
+                         cy = own.box.y + (y + 0.5) / mask.height() * own.box.height;
+            const int px = int(std::floor(cx)) - part.x, py = int(std::floor(cy)) - part.y;
             if (part.figure.contains(px, py)) mask(x, y) = std::uint8_t(255 * part.figure(px, py));
         }
     return mask;
@@ -117,9 +119,8 @@ inline void expect_ellipse(Mask& mask) {
 /// @throws Error where the model is of other objects.
 [[nodiscard]] inline Model masks_from_boxes(Model model, const TrainingFeatures& features,
                                             unsigned threads = 0, const Progress& progress = {}) {
+    detail::expect_same_objects(model, features, "masks");
     std::vector<TrainingObject>& objects = model.shapes.objects;
-    expect(objects.size() == features.objects.size(), "masks: objects of the model", features.objects.size(),
-           objects.size());
     auto boxed = detail::boxed_objects(objects, features);
     parallel_for(boxed.size(), threads, [&](std::size_t i) {
         detail::BoxedObject& own = boxed[i];

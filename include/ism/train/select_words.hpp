@@ -57,10 +57,13 @@ namespace ism {
 /// @brief A model with these words and their occurrences alone, weighed again, before what counts all its
 /// words is learnt.
 /// @param chosen  words in rising order
-/// @throws Error where a channel has none, or the model already has a classifier of boxes.
+/// @throws Error where a channel has none, or the model already has what is learnt from all its words or does
+/// not vote through words: a classifier of boxes, templates, exemplars, votes in metres.
 [[nodiscard]] inline Model keep_words(const Model& model, const std::vector<std::uint32_t>& chosen) {
     expect(model.box_classifier.empty() && model.calibration.empty(), "words to keep",
            "a model without classifier and calibration", "one with them, which have to be learnt after");
+    expect(model.templates.empty() && model.exemplars.empty() && model.shapes.frames.empty(), "words to keep",
+           "a model of words alone", "one with templates, exemplars or votes in metres");
     Model kept{.channels = {},
                .shapes = {.class_names = model.shapes.class_names,
                           .category_ids = model.shapes.category_ids,

@@ -76,6 +76,13 @@ inline void number_features(std::vector<TrainingSamples>& samples) {
         for (Occurrence& o : channel.occurrences) o.feature = feature++;
 }
 
+/// @param what  is learnt, for the message
+/// @throws Error where the model was not learnt from the features.
+inline void expect_same_objects(const Model& model, const TrainingFeatures& features, const char* what) {
+    expect(model.shapes.objects.size() == features.objects.size(), lazy_text(what, ": objects of the model"),
+           features.objects.size(), model.shapes.objects.size());
+}
+
 /// Joins what images gave, in their order; classes are the same in all.
 [[nodiscard]] inline TrainingFeatures join_images(TrainingFeatures all, std::vector<TrainingFeatures> parts) {
     for (TrainingFeatures& part : parts) {

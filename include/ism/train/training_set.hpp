@@ -13,7 +13,7 @@
 namespace ism {
 
 /// @brief Labelled images to learn from. Labels are asked for first and open no file; each image is then
-/// asked for once. Both are called from several threads at once.
+/// asked for once, by several threads side by side.
 struct TrainingSet {
     std::size_t size = 0;  ///< number of images
     Function<std::vector<ObjectLabel>(std::size_t i)> labels;
