@@ -323,6 +323,8 @@ void sum_up_data(const DetectCommand& command, const DetectInput& input, const O
 void run_detect(const DetectCommand& command) {
     const Stopwatch watch;
     const ImageList list(command.images);
+    ism::expect(command.depth.empty() || list.images().size() == 1, "--depth", "one image",
+                list.images().size());
     ism::expect(command.search.turns == 1 || command.search.space != metric_space, "--turns",
                 "1 in the space metric, which finds what is turned", command.search.turns);
     check_outputs(command, list);

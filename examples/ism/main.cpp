@@ -225,8 +225,6 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
     app.callback([&command, data, images] {
         ism::expect(data->count() + images->count() > 0, "detect", "--data or images",
                     "neither, as in: ism detect --model model.safetensors photo.jpg");
-        ism::expect(command.depth.empty() || command.images.size() == 1, "--depth", "one image",
-                    command.images.size());
         program::run_detect(command);
     });
 }

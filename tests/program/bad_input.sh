@@ -121,6 +121,14 @@ says "note: file 'toys/test/test-0000-depth.png': depth scale 0.03" doubt.txt
 $line "--depth-scale: expected a number, above 0" "$ism" detect --model $model $depth --depth-scale -0.001 -o out
 $line "--depth: expected one image, got 2" \
     "$ism" detect --model $model toys/test/test-0001.png $depth --depth-scale 0.001 -o out
+mkdir two
+cp toys/test/test-000[01].png two
+for images in two 'two/*.png'; do
+    $line "--depth: expected one image, got 2" \
+        "$ism" detect --model $model "$images" --depth toys/test/test-0000-depth.png --depth-scale 0.001 -o out
+done
+rm two/test-0001.png
+"$ism" detect --model $model two --depth toys/test/test-0000-depth.png --depth-scale 0.001 >/dev/null || fail "a folder of one image"
 
 # Results that do not fit the data.
 sed 's/"image_id":1,/"image_id":77,/' toys/detections-jism.json >other.json
