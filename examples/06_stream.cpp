@@ -8,9 +8,11 @@
 // NAME-color.png and, where there is depth, NAME-depth.png, and camera.json {"fx", "fy", "cx", "cy",
 // "depth_scale"}; or the number of rendered frames of a toy table, of which the truth is known.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +20,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "toy/cluttered.hpp"
@@ -47,6 +51,22 @@ struct Frames {
     std::vector<toy::ToyObject> truth = {};  // of the frame that was read last, always in the same order
 };
 
+/// The camera of a folder, and the metres per unit of its depth.
+std::pair<ism::Camera, double> read_camera(const std::filesystem::path& file) try {
+    ism::expect<ism::FileError>(std::filesystem::exists(file), file.string(), "a file", "none");
+    const auto json = nlohmann::json::parse(std::ifstream(file));
+    const auto number = [&](const char* key) { return json.at(key).get<double>(); };
+    const ism::Camera camera{number("fx"), number("fy"), number("cx"), number("cy")};
+    ism::at_place(ism::file_text(file), [&] { ism::check(camera); });
+    const double scale = number("depth_scale");
+    ism::expect<ism::FileError>(scale > 0, file.string() + ": depth_scale", "metres per unit above 0", scale);
+    return {camera, scale};
+} catch (const nlohmann::json::exception&) {
+    throw ism::FileError(
+        ism::file_text(file) +
+        ": expected JSON with the numbers fx, fy, cx, cy and depth_scale, got something else");
+}
+
 void open_folder(Frames& frames, const std::filesystem::path& folder) {
     const std::string ending = "-color.png";
     std::vector<std::string> names;
@@ -55,32 +75,42 @@ void open_folder(Frames& frames, const std::filesystem::path& folder) {
             names.push_back((folder / name.substr(0, name.size() - ending.size())).string());
     std::sort(names.begin(), names.end());
     ism::expect<ism::FileError>(!names.empty(), folder.string(), "files NAME-color.png", "none");
-    const std::filesystem::path settings = folder / "camera.json";
-    ism::expect<ism::FileError>(std::filesystem::exists(settings), settings.string(), "a file", "none");
-    const auto json = nlohmann::json::parse(std::ifstream(settings));
-    const auto number = [&](const char* key) { return json.at(key).get<double>(); };
-    const ism::Camera camera{number("fx"), number("fy"), number("cx"), number("cy")};
+    const auto settings = read_camera(folder / "camera.json");
     frames.count = names.size();
-    frames.read = [names, ending, camera, scale = number("depth_scale")](std::size_t i) {
-        ism::Picture picture = ism::read_picture(names[i] + ending);
-        ism::Frame frame{
-            .gray = std::move(picture.gray), .color = std::move(picture.color), .camera = camera};
+    frames.read = [names, ending, settings](std::size_t i) {
+        ism::DatasetImage image{.id = std::int64_t(i),
+                                .file = names[i] + ending,
+                                .depth_scale = settings.second,
+                                .camera = settings.first};
+        const ism::ImageSize size = ism::read_image_size(image.file).shown;
+        image.width = size.width, image.height = size.height;
         if (const std::string depth = names[i] + "-depth.png"; std::filesystem::exists(depth))
-            frame.depth_m = ism::to_metres(ism::read_raw_depth(depth), scale);
-        return frame;
+            image.depth_file = depth;
+        return ism::read_frame(image);  // without depth, where that has no reading
     };
 }
 
+/// A whole number of the command line.
+std::size_t whole_number(const std::string& text, const char* what, std::size_t least, std::size_t most,
+                         const char* or_else = "") {
+    std::size_t number = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool whole = failure == std::errc() && end == text.data() + text.size();
+    ism::expect(whole && number >= least && number <= most, what,
+                ism::lazy_text(or_else, "a whole number from ", least, " to ", most),
+                ism::lazy_text("'", text, "'"));
+    return number;
+}
+
 void open(Frames& frames, const std::string& what) {
-    const auto rendered = std::size_t(std::atoi(what.c_str()));
     if (std::filesystem::is_directory(what)) return open_folder(frames, what);
-    if (std::filesystem::exists(what) || rendered == 0) {
+    if (std::filesystem::exists(what)) {
         const std::vector<ism::DatasetImage> images = ism::read_dataset(what).images;
         frames.count = images.size();
         frames.read = [images](std::size_t i) { return ism::read_frame(images[i]); };
         return;
     }
-    frames.count = rendered;
+    frames.count = whole_number(what, "FRAMES", 1, 1000000, "a file, a folder, or ");
     frames.read = [&frames](std::size_t i) {
         toy::ToyScene scene = toy::render_cluttered(4, {.first_instance = 100, .frame = i});
         frames.truth = std::move(scene.objects);
@@ -167,7 +197,7 @@ int main(int argc, char** argv) try {
     const ism::Model model = ism::load_model(argv[1]);
     Frames frames;
     open(frames, argv[2]);
-    Eye eye(model, argc > 3 ? unsigned(std::atoi(argv[3])) : 0);
+    Eye eye(model, argc > 3 ? unsigned(whole_number(argv[3], "THREADS", 0, ism::max_threads)) : 0);
     ism::Tracker tracker;
 
     std::vector<double> latency_ms;

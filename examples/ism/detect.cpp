@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <deque>
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "commands.hpp"
 #include "detect_input.hpp"
@@ -43,12 +45,32 @@ std::string_view space_of(const ism::Frame& frame, std::string_view space, bool 
     return may_be_metric && !frame.depth_m.empty() && frame.camera ? metric_space : "jism";
 }
 
+std::string count_text(std::size_t count, const char* what) {
+    return ism::join_text(count, " ", what, count == 1 ? "" : "s");
+}
+
+/// What a frame lacks for the space metric; empty where nothing.
+std::string lack_of(const ism::Frame& frame, const ism::DatasetImage& image) {
+    const std::string depth = !frame.depth_m.empty()     ? ""
+                              : image.depth_file.empty() ? "depth"
+                                                         : "a reading of depth";
+    if (frame.camera) return depth;
+    return depth.empty() ? "a camera" : depth + " and a camera";
+}
+
 /// What --space auto came to.
-std::string spaces_text(std::size_t in_metres, std::size_t images, bool may_be_metric) {
-    if (in_metres == images) return "metric";
-    if (in_metres > 0)
-        return ism::join_text("metric; jism for ", images - in_metres, " images without depth and camera");
-    return may_be_metric ? "jism, for want of depth or camera: no positions, and less is found" : "jism";
+/// @param lacks  how many images lack what, among them "" for nothing
+std::string spaces_text(std::map<std::string, std::size_t> lacks, bool may_be_metric) {
+    if (!may_be_metric) return "jism";
+    const bool in_metres = lacks.erase("") > 0;
+    if (lacks.empty()) return "metric";
+    std::vector<std::string> wants, images;
+    for (const auto& [lack, count] : lacks) {
+        wants.push_back(lack);
+        images.push_back(count_text(count, "image") + " without " + lack);
+    }
+    return in_metres ? "metric; jism for " + list_text(images)
+                     : "jism, for want of " + list_text(wants) + ": no positions, and less is found";
 }
 
 /// Whether an output is standard output.
@@ -168,15 +190,11 @@ public:
         }
     }
 
-    [[nodiscard]] bool searches_in_metres(const ism::Frame& frame) const {
-        return space_of(frame, search_.space, may_be_metric_) == metric_space;
-    }
-
     [[nodiscard]] ism::Detections find(const ism::Frame& frame, unsigned worker, bool explain) {
         SearchOptions search = search_;
         search.explain = explain;
         search.space = space_of(frame, search.space, may_be_metric_);
-        return (searches_in_metres(frame) ? rgbd_matchers_ : matchers_)[worker].find(frame, search);
+        return (search.space == metric_space ? rgbd_matchers_ : matchers_)[worker].find(frame, search);
     }
 
     ism::ThreadPool pool;
@@ -208,13 +226,17 @@ Outcome search_images(Searcher& searcher, const DetectCommand& command, const De
     const Line line = line_at_once(command);
     const bool lines_shown = line != nullptr && isatty(STDOUT_FILENO) != 0;  // and tell how far it is
     Outcome outcome{.found = std::vector<FoundInImage>(count), .space = command.search.space};
-    std::atomic<std::size_t> in_metres = 0;
+    std::mutex lacks_used;
+    std::map<std::string, std::size_t> lacks;
     InOrder told;
     ProgressLine progress;
     searcher.pool.for_each(count, [&](std::size_t i, unsigned worker) {
         const ism::DatasetImage& image = input.dataset.images[i];
         const auto frame = frame_of(input, i);
-        if (searcher.searches_in_metres(*frame)) ++in_metres;
+        {
+            const std::lock_guard lock(lacks_used);
+            ++lacks[lack_of(*frame, image)];
+        }
         ism::Detections found = searcher.find(*frame, worker, overlays.folder.has_value());
         FoundInImage& here = outcome.found[i];
         here = {.name = input.names[i],
@@ -231,7 +253,7 @@ Outcome search_images(Searcher& searcher, const DetectCommand& command, const De
         if (!lines_shown) progress.step("detecting", count);
     });
     if (command.search.space == auto_space)
-        outcome.space = spaces_text(in_metres, count, metric_allowed(input.model, command.search));
+        outcome.space = spaces_text(std::move(lacks), metric_allowed(input.model, command.search));
     return outcome;
 }
 
@@ -271,10 +293,6 @@ void write_outcome(const DetectCommand& command, const Outcome& outcome) {
     if (is_told(command) && !is_taken(command) && line_at_once(command) == nullptr)
         std::fputs(object_table(outcome.found).c_str(), stdout);
     std::fflush(stdout);
-}
-
-std::string count_text(std::size_t count, const char* what) {
-    return ism::join_text(count, " ", what, count == 1 ? "" : "s");
 }
 
 void tell_nothing_found(std::span<const FoundInImage> found) {

@@ -119,6 +119,9 @@ DetectInput read_detect_input(const DetectCommand& command, const ImageList& lis
     const auto read = [&](ism::DatasetImage& image) {
         check_image(image, command.search.space);
         ism::Frame frame = pictures ? picture_frame(image) : ism::read_frame(image, read_picture);
+        if (needs_depth(command.search.space) && frame.depth_m.empty())
+            throw ism::FileError(ism::file_text(image.depth_file) +
+                                 ": expected depth with a reading, got none");
         if (!frame.depth_m.empty())
             doubts.add(image.depth_file, ism::depth_scale_doubt(frame.depth_m, image.depth_scale));
         if (pictures && list.images().size() == 1)

@@ -277,7 +277,7 @@ void run_inspect(const InspectCommand& command) {
         objects += contents.images[i].objects.size();
         background += ism::ignored_boxes(image).empty() && image.objects.empty();
         for (const ism::DatasetAnnotation& object : image.objects) crowds += object.crowd;
-        with_depth += !image.depth_file.empty(), with_camera += image.camera.has_value();
+        with_depth += contents.images[i].depth_share > 0, with_camera += image.camera.has_value();
         depth_share += contents.images[i].depth_share;
     }
     for (std::size_t c = 0; c < examples.size(); ++c) {

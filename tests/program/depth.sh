@@ -43,12 +43,12 @@ done
 # Colours alone: found with the other model, and what is lost is said.
 sed -E 's/"depth_file_name":"[^"]*",//; s/"depth_scale":[0-9.]*,//' toys/test.json >toys/colour.json
 "$ism" detect --model model --data toys/colour.json -o colour >detect.txt
-says "space       jism, for want of depth or camera: no positions, and less is found" detect.txt
+says "space       jism, for want of depth: no positions, and less is found" detect.txt
 says '"image_id":1,' colour
 ! grep -q depth_m colour || fail "depth where there is none: $(cat colour)"
 sed '0,/"depth_file_name":"[^"]*",/s///; 0,/"depth_scale":[0-9.]*,/s///' toys/test.json >toys/mixed.json
 "$ism" detect --model model --data toys/mixed.json -o mixed >detect.txt
-says "space       metric; jism for 1 images without depth and camera" detect.txt
+says "space       metric; jism for 1 image without depth" detect.txt
 cmp <(grep -F '"image_id":1,' mixed | sed 's/,$//') <(grep -F '"image_id":1,' colour | sed 's/,$//') ||
     fail "an image without depth among others is detected otherwise"
 cmp <(grep -F '"image_id":2,' mixed | sed 's/,$//') <(grep -F '"image_id":2,' found-1 | sed 's/,$//') ||
@@ -61,7 +61,27 @@ sed -E 's/"camera":\{[^}]*\},//' toys/test.json >toys/no-camera.json
 refused "test-0000.png': expected its camera, got none" \
     "$ism" detect --model model --data toys/no-camera.json -o out --space metric
 "$ism" detect --model model --data toys/no-camera.json -o no-camera >detect.txt
-says "space       jism, for want of depth or camera" detect.txt
+says "space       jism, for want of a camera" detect.txt
+
+# Depth without any reading, as of a covered lens, counts as none.
+sed '0,/test-0000-depth.png/s//covered.png/' toys/test.json >toys/covered.json
+covered_depth toys/test/covered.png
+"$ism" detect --model model --data toys/covered.json -o covered >detect.txt
+says "space       metric; jism for 1 image without a reading of depth" detect.txt
+cmp covered mixed || fail "depth without a reading is not as none"
+refused "test/covered.png': expected depth with a reading, got none" \
+    "$ism" detect --model model --data toys/covered.json -o out --space metric
+"$ism" detect --model model toys/test/test-0000.png --depth toys/test/covered.png --depth-scale 0.001 \
+    --camera 262.5,262.5,159.5,119.5 >/dev/null 2>detect.txt
+says "space jism, for want of a reading of depth" detect.txt
+"$ism" inspect --data toys/covered.json >inspect.txt
+says "with depth      1" inspect.txt
+says "depth without a reading: 1" inspect.txt
+sed '0,/train-0000-depth.png/s//covered.png/' toys/train.json >toys/covered.json
+cp toys/test/covered.png toys/train
+"$ism" train --data toys/covered.json -o covered --no-templates >train.txt
+says "images       24" train.txt
+says "depth        of 2" train.txt
 
 # A model of colours alone; its part of the other model is the same.
 "$ism" train --data toys/train.json -o flat --no-templates --no-depth >train.txt

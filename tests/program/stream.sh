@@ -38,7 +38,24 @@ cmp <(objects coco.txt) <(objects folder.txt) || fail "a folder is seen otherwis
 rm frames/*0000-depth.png # this frame by its colours alone
 "$stream" model frames 2 >mixed.txt
 (($(objects mixed.txt | wc -l) == $(objects folder.txt | wc -l))) || fail "a frame without depth: $(cat mixed.txt)"
+# So is a frame whose depth has no reading, as of a covered lens.
+covered_depth frames/test-0000-depth.png
+"$stream" model frames 2 >covered.txt
+cmp <(objects mixed.txt) <(objects covered.txt) || fail "a frame whose depth has no reading is seen otherwise"
+cp toys/model.safetensors frames/test-0000-depth.png
+refused_in_a_line "test-0000-depth.png': expected" "$stream" model frames
 refused_in_a_line "toys/test: expected files NAME-color.png, got none" "$stream" model toys/test
+for damaged in '{"fx": 262.5,' '[]' '{"fx": "262.5"}' '{"fx": 262.5}'; do
+    echo "$damaged" >frames/camera.json
+    refused_in_a_line "camera.json': expected JSON with the numbers fx, fy, cx, cy and depth_scale" "$stream" model frames
+done
+echo '{"fx": 0, "fy": 262.5, "cx": 159.5, "cy": 119.5, "depth_scale": 0.001}' >frames/camera.json
+refused_in_a_line "camera.json': camera focal lengths" "$stream" model frames
 rm frames/camera.json
 refused_in_a_line "camera.json: expected a file, got none" "$stream" model frames
+for number in -4 0 4.5 4x 2000000; do
+    refused_in_a_line "FRAMES: expected a file, a folder, or a whole number from 1 to 1000000, got '$number'" \
+        "$stream" model "$number"
+done
+refused_in_a_line "THREADS: expected a whole number from 0 to" "$stream" model 2 -1
 refused "usage: " "$stream" model

@@ -80,6 +80,9 @@ TEST_CASE("A depth scale that puts objects far away, and depth that lacks them, 
     for (float& depth_m : frame.depth_m.pixels()) depth_m = ism::no_depth;
     frame.depth_m(0, 0) = 0.7f;
     CHECK(kinds_of(image, frame) == Kinds{"little depth"});
+    ism::DatasetImage covered = image;
+    covered.depth_file = "d.png";
+    CHECK(kinds_of(covered, frame_of()) == Kinds{"depth without a reading"});
 }
 
 TEST_CASE("Pictures have the same fingerprint where all pixels are the same") {

@@ -136,6 +136,8 @@ namespace detail {
 [[nodiscard]] inline ImageFacts inspect_image(const DatasetImage& image, const Frame& frame,
                                               const InspectOptions& options = {}) {
     ImageFacts facts{.fingerprint = detail::pixel_fingerprint(frame.color)};
+    if (!image.depth_file.empty() && frame.depth_m.empty())
+        facts.remarks.push_back({.kind = "depth without a reading", .text = "it counts as without depth"});
     for (std::size_t i = 0; i < image.objects.size(); ++i) {
         const DatasetAnnotation& object = image.objects[i];
         if (object.crowd) continue;

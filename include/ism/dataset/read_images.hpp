@@ -24,12 +24,13 @@ namespace ism {
 /// @brief Reads an image file as read_picture() does; a function of one's own reads more formats.
 using PictureReader = Picture (*)(const std::filesystem::path&, std::optional<ImageSize>);
 
-/// @brief Reads an image's brightness and colour, its depth in metres where it has a depth file, and its
-/// camera. A JPEG is turned as its EXIF orientation says, unless the data set's size is that of its stored
-/// pixels and not that of the shown ones: then they stay as they are stored.
+/// @brief Reads an image's brightness and colour, its depth in metres where it has a depth file with any
+/// reading (of a covered lens there is none), and its camera. A JPEG is turned as its EXIF orientation says,
+/// unless the data set's size is that of its stored pixels and not that of the shown ones: then they stay as
+/// they are stored.
 /// @throws FileError, naming the file, where one cannot be read, is of another size than the data set says,
-/// is smaller than 16×16, has no depth reading at all, a depth scale that check_depth_scale() refuses, or has
-/// depth and was turned: nothing tells whether the depth was turned too.
+/// is smaller than 16×16, has a depth scale that check_depth_scale() refuses, or has depth and was turned:
+/// nothing tells whether the depth was turned too.
 [[nodiscard]] inline Frame read_frame(const DatasetImage& image, PictureReader read = read_picture) {
     const auto check_size = [&](const std::filesystem::path& file, const auto& pixels) {
         if (pixels.width() != image.width || pixels.height() != image.height)
@@ -49,9 +50,10 @@ using PictureReader = Picture (*)(const std::filesystem::path&, std::optional<Im
         check_size(image.depth_file, raw);
         frame.depth_m = to_metres(raw, image.depth_scale);
         at_place(file_text(image.depth_file), [&] { check_depth_scale(frame.depth_m, image.depth_scale); });
+        if (!has_reading(frame.depth_m)) frame.depth_m = {};
     }
     frame.camera = image.camera;
-    at_place(file_text(image.depth_file.empty() ? image.file : image.depth_file), [&] { check(frame); });
+    at_place(file_text(image.file), [&] { check(frame); });
     return frame;
 }
 
