@@ -33,8 +33,10 @@ void ignore_bad_masks(ism::Dataset& dataset, ism::Faults& faults) {
 ism::Dataset read_labels(const std::filesystem::path& path, ism::DatasetPart part, ism::Faults& faults) {
     const ism::DatasetReadOptions options{.faults = &faults, .part = part, .image_size = read_image_size};
     const ism::DatasetPlace place = ism::find_dataset(path);
-    return place.format == ism::DatasetFormat::voc ? read_voc(place.path, options)
-                                                   : ism::read_any_dataset(place, options);
+    ism::Dataset dataset = place.format == ism::DatasetFormat::voc ? read_voc(place.path, options)
+                                                                   : ism::read_any_dataset(place, options);
+    tell_depth_left_out(dataset.depth_left_out);
+    return dataset;
 }
 
 ism::Dataset read_data(const std::filesystem::path& path, ism::DatasetPart part, bool skip_bad) {

@@ -3,10 +3,8 @@
 #include "image_list.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <random>
 #include <set>
 #include <string_view>
@@ -28,14 +26,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view overlay_ending = ".ism.png";
-
-/// Whether a file is a grey PNG of 16 bits, as depth is kept.
-bool is_depth_image(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::array<char, 26> head{};
-    stream.read(head.data(), std::streamsize(head.size()));
-    return stream && std::string_view(head.data() + 1, 3) == "PNG" && head[24] == 16 && head[25] == 0;
-}
 
 std::vector<fs::path> files_of_pattern(const std::string& pattern) {
     glob_t found{};
@@ -129,13 +119,11 @@ void ImageList::leave_out_overlays() {
 }
 
 void ImageList::leave_out_depth() {
-    if (images_.size() < 2) return;
-    const auto is_depth = [](const NamedImage& image) { return is_depth_image(image.file); };
-    const auto depth = std::size_t(std::count_if(images_.begin(), images_.end(), is_depth));
-    if (depth == 0 || depth == images_.size()) return;
-    std::erase_if(images_, is_depth);
-    std::fprintf(stderr, "ism: note: left out as depth: %zu of the images, which are grey PNG of 16 bits\n",
-                 depth);
+    std::vector<fs::path> files;
+    for (const NamedImage& image : images_) files.push_back(image.file);
+    const std::set<fs::path> depth = ism::detail::depth_among(files);
+    std::erase_if(images_, [&](const NamedImage& image) { return depth.contains(image.file); });
+    tell_depth_left_out(depth.size());
 }
 
 std::vector<fs::path> overlay_files(std::span<const NamedImage> images) {

@@ -48,6 +48,12 @@ void tell_faults(std::span<const std::string> faults, const std::string& of_what
                            " cannot be used; nothing was written (--skip-bad goes on without them)"));
 }
 
+void tell_depth_left_out(std::size_t count) {
+    if (count == 0) return;
+    std::fprintf(stderr, "ism: note: left out as depth: %zu of the images, which are grey PNG of 16 bits\n",
+                 count);
+}
+
 void Doubts::add(const fs::path& file, const std::string& text) {
     if (text.empty()) return;
     const std::lock_guard lock(mutex_);

@@ -40,6 +40,9 @@ template <class Texts>
 /// message.
 void tell_faults(std::span<const std::string> faults, const std::string& of_what, bool skip_bad);
 
+/// Tells on stderr how many of the images were left out as depth, where there are any.
+void tell_depth_left_out(std::size_t count);
+
 /// What is doubtful about files, told as one line: the first of them by name, and how many there are. May be
 /// added to from several threads.
 class Doubts {

@@ -80,6 +80,7 @@ fs::path image_of(const pugi::xml_node& root, const fs::path& label, const Place
 /// blue, and so on.
 ism::Image<std::uint8_t> read_object_numbers(const fs::path& path) {
     const ism::detail::ImageFile file = ism::detail::open_image(path);
+    if (file.deep) file.refuse("numbers or colours of 8 bits", "16 bits");
     const int channels = file.channels >= 3 ? 3 : 1;
     const auto samples = ism::detail::decode(file, channels, stbi_load_from_memory);
     ism::Image<std::uint8_t> numbers(file.width, file.height);

@@ -35,6 +35,11 @@ void write_mask(const fs::path& path, const Box& box, std::uint8_t figure = 255,
     ism::write_png(path, mask);
 }
 
+void write_depth(const fs::path& path) {
+    fs::create_directories(path.parent_path());
+    ism::write_png16(path, ism::RawDepth(24, 18, 700));
+}
+
 // A PNG of 24 × 18 px whose pixels are transparent outside the box.
 void write_cut_out(const fs::path& path, const Box& box) {
     fs::create_directories(path.parent_path());
@@ -129,6 +134,53 @@ TEST_CASE("Images alone have no labels, and a folder with one JSON file is COCO'
     CHECK(folder_error(folder.path())
               .ends_with("annotations': expected one JSON file of COCO, or those of labelme, got 2 such as "
                          "'train.json': name one"));
+}
+
+TEST_CASE("Depth beside the images of a class is left out, and is no mask") {
+    const TemporaryFolder folder;
+    write_image(folder / "box/0.pgm");
+    write_depth(folder / "box/0.png");
+    write_image(folder / "box/1-color.pgm");
+    write_depth(folder / "box/1-depth.png");
+    write_image(folder / "box/2.pgm");
+    write_mask(folder / "box/2.png", {3, 4, 5, 6});
+    const ism::Dataset dataset = ism::read_any_dataset(folder.path());
+    CHECK(dataset.depth_left_out == 2);
+    REQUIRE(dataset.images.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(dataset.images[i].file.extension() == ".pgm");
+        CHECK(dataset.images[i].id == std::int64_t(i) + 1);
+        CHECK(dataset.images[i].objects.at(0).box == (i < 2 ? Box{0, 0, 24, 18} : Box{3, 4, 5, 6}));
+    }
+    CHECK(ism::detail::image_of_stem(folder / "box", "0") == folder / "box/0.pgm");
+    CHECK(ism::detail::image_of_stem(folder / "box", "1-depth") == folder / "box/1-depth.png");
+    write_depth(folder / "box/1-color_mask.png");
+    CHECK(folder_error(folder.path())
+              .ends_with(
+                  "1-color_mask.png': expected a mask of 8 bits, got grey of 16 bits, as depth is kept"));
+}
+
+TEST_CASE("Where all pictures are grey of 16 bits they are no depth") {
+    const TemporaryFolder folder;
+    write_depth(folder / "bone/0.png");
+    write_depth(folder / "bone/1.png");
+    write_mask(folder / "bone/1_mask.png", {3, 4, 5, 6});
+    const ism::Dataset dataset = ism::read_any_dataset(folder.path());
+    CHECK(dataset.depth_left_out == 0);
+    REQUIRE(dataset.images.size() == 2);
+    CHECK(dataset.images[1].objects.at(0).box == Box{3, 4, 5, 6});
+}
+
+TEST_CASE("Depth in a folder of images alone is left out") {
+    const TemporaryFolder folder;
+    write_image(folder / "a.pgm");
+    write_depth(folder / "a.png");
+    write_image(folder / "b.pgm");
+    const ism::Dataset dataset = ism::read_any_dataset(folder.path());
+    CHECK(dataset.depth_left_out == 1);
+    REQUIRE(dataset.images.size() == 2);
+    CHECK(dataset.images[1].file.filename() == "b.pgm");
+    CHECK(dataset.images[1].id == 2);
 }
 
 TEST_CASE("Folders that make no sense are refused in a line, single images may be left out") {

@@ -86,6 +86,26 @@ TEST_CASE("YOLO's labels stand beside the images too, and images in a list") {
     CHECK(ism::read_any_dataset(folder / "some.yaml").images.at(0).objects.size() == 1);
 }
 
+TEST_CASE("Depth among YOLO's images is left out, unless it alone has labels") {
+    const TemporaryFolder folder;
+    write_text(folder / "data.yaml", "names: [cup]\ntrain: images\n");
+    write_40_by_20(folder / "images/a.pgm");
+    for (const char* depth : {"a.png", "a-depth.png"})
+        ism::write_png16(folder / (std::string("images/") + depth), ism::RawDepth(40, 20, 700));
+    write_text(folder / "labels/a.txt", "0 0.5 0.5 1 1");
+    ism::Dataset dataset = ism::read_any_dataset(folder.path());
+    REQUIRE(dataset.images.size() == 1);
+    CHECK(dataset.images[0].file.filename() == "a.pgm");
+    CHECK(dataset.images[0].id == 1);
+    CHECK(dataset.depth_left_out == 2);
+    write_text(folder / "labels/a-depth.txt", "0 0.5 0.5 1 1");
+    CHECK(ism::read_any_dataset(folder.path()).images.size() == 2);
+    fs::remove(folder / "images/a.pgm");  // all are pictures of 16 bits
+    dataset = ism::read_any_dataset(folder.path());
+    CHECK(dataset.images.size() == 2);
+    CHECK(dataset.depth_left_out == 0);
+}
+
 TEST_CASE("Labels of YOLO that make no sense are named by file and line, or left out") {
     const TemporaryFolder folder;
     write_40_by_20(folder / "images/a.pgm");

@@ -63,7 +63,8 @@ struct Dataset {
     std::vector<std::string> class_names = {};
     std::vector<std::int64_t> category_ids = {};  ///< the file's number of each class, in the same order
     std::vector<DatasetImage> images = {};
-    bool classes_listed = true;  ///< false: class_names are those that labels name; there may be more
+    bool classes_listed = true;      ///< false: class_names are those that labels name; there may be more
+    std::size_t depth_left_out = 0;  ///< grey PNG of 16 bits among the pictures of a folder: they are depth
 };
 
 /// @brief Where an image may show objects that its labels do not tell: the boxes of crowds, and all of it

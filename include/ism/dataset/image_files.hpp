@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "ism/dataset/dataset.hpp"
+#include "ism/dataset/depth_files.hpp"
 #include "ism/dataset/faults.hpp"
 #include "ism/io/images.hpp"
 #include "ism/io/paths.hpp"
@@ -80,21 +81,26 @@ inline constexpr std::string_view image_endings[] = {".jpg", ".jpeg", ".png",  "
     return files;
 }
 
-/// @brief The image of this name without its ending, in this folder; empty where there is none.
+/// @brief The image of this name without its ending, in this folder; empty where there is none. Depth counts
+/// where nothing else has the name.
 /// @param except  an ending that it may not have
 [[nodiscard]] inline std::filesystem::path image_of_stem(const std::filesystem::path& folder,
                                                          const std::string& stem,
                                                          std::string_view except = {}) {
     std::error_code ignored;
+    std::filesystem::path depth;
     for (const std::string_view ending : image_endings) {
         if (ending == except) continue;
         std::string upper(ending);
         for (char& c : upper)
             if (c >= 'a' && c <= 'z') c = char(c - 'a' + 'A');
-        for (const std::string& name : {stem + std::string(ending), stem + upper})
-            if (std::filesystem::is_regular_file(folder / name, ignored)) return folder / name;
+        for (const std::string& name : {stem + std::string(ending), stem + upper}) {
+            if (!std::filesystem::is_regular_file(folder / name, ignored)) continue;
+            if (!is_depth_image(folder / name)) return folder / name;
+            if (depth.empty()) depth = folder / name;
+        }
     }
-    return {};
+    return depth;
 }
 
 /// @brief A data set of a folder, whose name ends with "/": file names are told as seen from it.

@@ -20,8 +20,9 @@ namespace ism::detail {
 
 /// @brief An image as a mask. Figure is what is not transparent; without transparent pixels it is what is
 /// brighter, in any channel, than half of the brightest.
-/// @throws FileError where it is damaged, or nothing in it is figure.
+/// @throws FileError where it is damaged, grey of 16 bits, as depth is kept, or nothing in it is figure.
 [[nodiscard]] inline Mask decode_mask(const ImageFile& file) {
+    if (file.deep && file.channels == 1) file.refuse("a mask of 8 bits", "grey of 16 bits, as depth is kept");
     const auto samples = decode(file, 4, stbi_load_from_memory);
     Mask mask(file.width, file.height);
     std::uint8_t brightest = 0, least_alpha = 255;

@@ -39,6 +39,12 @@ namespace detail {
     return std::filesystem::exists(labels / name) ? labels / name : parent / name;
 }
 
+/// @brief Whether there are labels of this image, and not of another one of its name.
+[[nodiscard]] inline bool has_own_labels(const std::filesystem::path& image) {
+    return std::filesystem::exists(yolo_labels(image)) &&
+           image_of_stem(image.parent_path(), image.stem().string()) == image;
+}
+
 /// @brief A line: the class, then middle and sides of a box, or the corners of an outline, in parts of the
 /// image's sides.
 [[nodiscard]] inline DatasetAnnotation yolo_object(std::string_view line, std::size_t classes,
@@ -90,14 +96,26 @@ namespace detail {
     return image;
 }
 
+/// @brief The images of a folder, or those that a text file lists.
+[[nodiscard]] inline std::vector<std::filesystem::path> yolo_files(const std::filesystem::path& place,
+                                                                   DatasetPart part) {
+    if (place.extension() != ".txt" || std::filesystem::is_directory(place))
+        return image_files(yolo_images(place, part));
+    std::vector<std::filesystem::path> files;
+    for (const std::string& line : lines_of(place))
+        files.push_back(place.parent_path() / path_from_utf8(line));
+    return files;
+}
+
 }  // namespace detail
 
 /// @brief Reads labels of YOLO, boxes and outlines. A YAML file names the classes (`names`) and folders or
 /// lists of images (`train`, `val`, `test`, below `path`): the part that is asked for is read, `val` where
 /// there is no `test`. In a folder, images are there or in images/, and the classes in data.yaml or
 /// classes.txt, up to two folders above. Labels are in labels/ in place of images/, or beside the images; an
-/// image without is background. Images are numbered from 1 in the order of their names, classes too as they
-/// are listed.
+/// image without is background. Depth among the images of a folder or list is left out where it has no labels
+/// of its own (see depth_among()). Images are numbered from 1 in the order of their names, classes too as
+/// they are listed.
 /// @throws FileError, naming the file and the line, where one cannot be read or makes no sense and there is
 /// no list of faults.
 [[nodiscard]] inline Dataset read_yolo(const std::filesystem::path& path,
@@ -106,19 +124,19 @@ namespace detail {
     Dataset dataset = detail::folder_dataset(places.root);
     dataset.class_names = places.names;
     std::int64_t id = 0;
-    const auto add = [&](const std::filesystem::path& file) {
-        ++id;
-        read_or_tell(options.faults, [&] {
-            dataset.images.push_back(detail::yolo_image(id, file, places.names.size(), options));
-        });
-    };
-    for (const auto& images : places.images) {
-        if (images.extension() != ".txt" || std::filesystem::is_directory(images)) {
-            for (const auto& file : detail::image_files(detail::yolo_images(images, options.part))) add(file);
-            continue;
+    for (const auto& place : places.images) {
+        const auto files = detail::yolo_files(place, options.part);
+        const auto depth = detail::depth_among(files);
+        for (const auto& file : files) {
+            if (depth.contains(file) && !detail::has_own_labels(file)) {
+                ++dataset.depth_left_out;
+                continue;
+            }
+            ++id;
+            read_or_tell(options.faults, [&] {
+                dataset.images.push_back(detail::yolo_image(id, file, places.names.size(), options));
+            });
         }
-        for (const std::string& line : detail::lines_of(images))
-            add(images.parent_path() / path_from_utf8(line));
     }
     detail::number(dataset);
     return dataset;
