@@ -12,6 +12,7 @@
 #include "spaces.hpp"
 
 #include "ism/core/nearest_name.hpp"
+#include "ism/dataset/camera_doubt.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/dataset/to_results.hpp"
 #include "ism/model_file/model_file.hpp"
@@ -97,7 +98,8 @@ ism::Frame picture_frame(ism::DatasetImage& image) {
 /// Makes sure that an image can be searched as it is asked for.
 void check_image(const ism::DatasetImage& image, std::string_view space) {
     if (needs_depth(space) && image.depth_file.empty())
-        throw ism::FileError(ism::file_text(image.file) + ": expected a depth image beside it, got none");
+        throw ism::FileError(ism::file_text(image.file) +
+                             ": expected a depth image beside it, got none");
     if (space == metric_space && !image.camera)
         throw ism::FileError(ism::file_text(image.file) + ": expected its camera, got none");
 }
@@ -124,6 +126,7 @@ DetectInput read_detect_input(const DetectCommand& command, const ImageList& lis
                                  ": expected depth with a reading, got none");
         if (!frame.depth_m.empty())
             doubts.add(image.depth_file, ism::depth_scale_doubt(frame.depth_m, image.depth_scale));
+        if (image.camera) doubts.add(image.file, ism::camera_doubt(*image.camera, image.width, image.height));
         if (pictures && list.images().size() == 1)
             input.only = std::make_shared<const ism::Frame>(std::move(frame));
     };

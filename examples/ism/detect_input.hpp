@@ -25,7 +25,8 @@ struct DetectInput {
     std::shared_ptr<const ism::Frame> only = {};  ///< a single picture is read once
 };
 
-/// Reads the model and every image once, and tells on stderr what is doubtful about depth.
+/// Reads the model and every image once, and tells on stderr what is doubtful about depth and
+/// cameras.
 /// @throws ism::Error for what cannot be searched, or not in the way that is asked for
 [[nodiscard]] DetectInput read_detect_input(const DetectCommand& command, const ImageList& list);
 

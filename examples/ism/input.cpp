@@ -63,7 +63,9 @@ void Doubts::add(const fs::path& file, const std::string& text) {
 void Doubts::tell() const {
     if (texts_.empty()) return;
     std::string line = *texts_.begin();
-    if (texts_.size() > 1) line += ism::join_text(" (and ", texts_.size() - 1, " other files)");
+    if (texts_.size() > 1)
+        line += ism::join_text(" (and ", texts_.size() - 1,
+                               texts_.size() == 2 ? " other file)" : " other files)");
     std::fprintf(stderr, "ism: note: %s\n", line.c_str());
 }
 

@@ -270,7 +270,7 @@ void run_inspect(const InspectCommand& command) {
             ism::join_text("... and ", faults.size() - most_faults, " more labels that cannot be used"));
     const auto examples = by_class(dataset, contents);
 
-    std::size_t objects = 0, background = 0, crowds = 0, with_depth = 0, with_camera = 0;
+    std::size_t objects = 0, background = 0, crowds = 0, with_depth = 0, with_camera = 0, without_camera = 0;
     double depth_share = 0;
     for (std::size_t i = 0; i < dataset.images.size(); ++i) {
         const ism::DatasetImage& image = dataset.images[i];
@@ -278,6 +278,7 @@ void run_inspect(const InspectCommand& command) {
         background += ism::ignored_boxes(image).empty() && image.objects.empty();
         for (const ism::DatasetAnnotation& object : image.objects) crowds += object.crowd;
         with_depth += contents.images[i].depth_share > 0, with_camera += image.camera.has_value();
+        without_camera += contents.images[i].depth_share > 0 && !image.camera;
         depth_share += contents.images[i].depth_share;
     }
     for (std::size_t c = 0; c < examples.size(); ++c) {
@@ -288,6 +289,10 @@ void run_inspect(const InspectCommand& command) {
             contents.of_set.push_back(ism::join_text("few examples: ", name, " has ", examples[c].size()));
         }
     }
+    if (without_camera > 0)
+        contents.of_set.push_back(ism::join_text(without_camera,
+                                                 without_camera == 1 ? " image has" : " images have",
+                                                 " depth but no camera: the space metric needs both"));
     if (dataset.class_names.empty())
         contents.of_set.push_back("no labels: there is nothing to learn from these images");
     std::vector<std::pair<std::string, std::string>> summary = {

@@ -62,6 +62,8 @@ refused "test-0000.png': expected its camera, got none" \
     "$ism" detect --model model --data toys/no-camera.json -o out --space metric
 "$ism" detect --model model --data toys/no-camera.json -o no-camera >detect.txt
 says "space       jism, for want of a camera" detect.txt
+"$ism" inspect --data toys/no-camera.json >inspect.txt
+says "2 images have depth but no camera: the space metric needs both" inspect.txt
 
 # Depth without any reading, as of a covered lens, counts as none.
 sed '0,/test-0000-depth.png/s//covered.png/' toys/test.json >toys/covered.json

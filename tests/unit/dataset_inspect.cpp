@@ -85,6 +85,48 @@ TEST_CASE("A depth scale that puts objects far away, and depth that lacks them, 
     CHECK(kinds_of(covered, frame_of()) == Kinds{"depth without a reading"});
 }
 
+TEST_CASE("A camera that cannot be that of its images is remarked") {
+    ism::Frame frame = frame_of();
+    const auto kinds_with = [&](const ism::Camera& camera) {
+        frame.camera = camera;
+        return kinds_of(image_with({20, 10, 40, 40}), frame);
+    };
+    CHECK(kinds_with({90, 90, 50, 40}).empty());
+    CHECK(kinds_with({90, 91, 3, 70}).empty());
+    CHECK(kinds_with({55, 40, 50, 40}).empty());
+    CHECK(kinds_with({90, 90, 101, 40}) == Kinds{"camera"});
+    CHECK(kinds_with({50, 40, 90, 90}) == Kinds{"camera"});
+    CHECK(ism::camera_doubt({525, 525, 640.5, 240}, 640, 480) ==
+          "the camera's principal point (640.5, 240) is outside of the image of 640x480 pixels");
+    CHECK(ism::camera_doubt({319.5, 239.5, 525, 525}, 640, 480) ==
+          "the camera's principal point (525, 525) is outside of the image of 640x480 pixels; "
+          "are cx, cy given as fx, fy?");
+    CHECK(ism::camera_doubt({640, 360, 700, 701}, 1280, 720) ==
+          "the camera's principal point (700, 701) is not in the middle of the image of 1280x720 pixels; "
+          "are cx, cy given as fx, fy?");
+    CHECK(ism::camera_doubt({300, 300, 290, 291}, 640, 480).empty());  // a wide lens
+}
+
+TEST_CASE("A position that is not where its object is seen is remarked") {
+    ism::DatasetImage image = image_with({20, 10, 40, 40});
+    ism::Frame frame = frame_of(0.7f);
+    frame.camera = ism::Camera{90, 90, 50, 40};
+    const auto kinds_at = [&](const ism::Point3& position_m) {
+        image.objects[0].position_m = position_m;
+        return kinds_of(image, frame);
+    };
+    const ism::Point3 middle = ism::back_project(*frame.camera, {40, 30}, 0.75);
+    CHECK(kinds_at(middle).empty());
+    CHECK(kinds_at(ism::back_project(*frame.camera, {62, 30}, 0.7)).empty());
+    CHECK(kinds_at(ism::back_project(*frame.camera, {90, 30}, 0.7)) == Kinds{"position"});
+    CHECK(kinds_at({1000 * middle.x, 1000 * middle.y, 1000 * middle.z}) == Kinds{"position"});
+    CHECK(kinds_at({0.1 * middle.x, 0.1 * middle.y, 0.1 * middle.z}) == Kinds{"position"});
+    frame.depth_m = {};
+    CHECK(kinds_at({0.1 * middle.x, 0.1 * middle.y, 0.1 * middle.z}).empty());
+    frame.camera.reset();
+    CHECK(kinds_at({3, 3, 3}).empty());
+}
+
 TEST_CASE("Pictures have the same fingerprint where all pixels are the same") {
     ism::Frame frame = frame_of();
     const auto before = ism::inspect_image(image_with({20, 10, 40, 40}), frame).fingerprint;

@@ -14,6 +14,7 @@
 #include "ism/core/frame.hpp"
 #include "ism/core/number_text.hpp"
 #include "ism/core/order.hpp"
+#include "ism/dataset/camera_doubt.hpp"
 #include "ism/dataset/dataset.hpp"
 
 namespace ism {
@@ -27,6 +28,7 @@ struct InspectOptions {
     double min_depth_m = 0.1, max_depth_m = 20;  ///< of objects before a depth camera
     double min_depth_share = 0.3;                ///< of an object's pixels, with a reading
     double same_object_iou = 0.9;                ///< of two boxes of one class
+    double position_margin = 0.5;  ///< of a box's sides: what is seen further outside is not its object
 };
 
 /// @brief Something about a label or an image that looks wrong.
@@ -105,8 +107,8 @@ namespace detail {
         if (fill < options.min_mask_fill && share <= options.max_outside_box)
             remark("box much larger than its mask", "the mask's box covers " + percent(fill));
     }
+    std::vector<float> readings;
     if (!frame.depth_m.empty()) {
-        std::vector<float> readings;
         std::size_t pixels = 0;
         const Box seen = intersection(box, page);
         for (int y = int(seen.y); y < int(std::ceil(seen.y + seen.height)); ++y)
@@ -126,6 +128,11 @@ namespace detail {
                                  " m away; depth_scale is ", number_text(image.depth_scale), " m per unit"));
         }
     }
+    if (object.position_m && frame.camera)
+        if (std::string doubt =
+                position_doubt(*object.position_m, box, *frame.camera, readings, options.position_margin);
+            !doubt.empty())
+            remark("position", std::move(doubt));
     return facts;
 }
 
@@ -138,6 +145,9 @@ namespace detail {
     ImageFacts facts{.fingerprint = detail::pixel_fingerprint(frame.color)};
     if (!image.depth_file.empty() && frame.depth_m.empty())
         facts.remarks.push_back({.kind = "depth without a reading", .text = "it counts as without depth"});
+    if (frame.camera)
+        if (std::string doubt = camera_doubt(*frame.camera, image.width, image.height); !doubt.empty())
+            facts.remarks.push_back({.kind = "camera", .text = std::move(doubt)});
     for (std::size_t i = 0; i < image.objects.size(); ++i) {
         const DatasetAnnotation& object = image.objects[i];
         if (object.crowd) continue;
