@@ -99,7 +99,7 @@ ism::Frame picture_frame(ism::DatasetImage& image) {
 void check_image(const ism::DatasetImage& image, std::string_view space) {
     if (needs_depth(space) && image.depth_file.empty())
         throw ism::FileError(ism::file_text(image.file) +
-                             ": expected a depth image beside it, got none");
+                             ": expected a depth image (depth_file_name), got none");
     if (space == metric_space && !image.camera)
         throw ism::FileError(ism::file_text(image.file) + ": expected its camera, got none");
 }

@@ -17,7 +17,8 @@ NumberRange between(double least, double most) {
 
 ism::Camera parse_camera(const std::string& option, const std::string& text) {
     std::vector<double> numbers;
-    for (const std::string& part : CLI::detail::split(text, ',')) {
+    for (std::string part : CLI::detail::split(text, ',')) {
+        CLI::detail::trim(part);
         double number = 0;
         const auto [stop, failure] = std::from_chars(part.data(), part.data() + part.size(), number);
         if (failure == std::errc{} && stop == part.data() + part.size()) numbers.push_back(number);

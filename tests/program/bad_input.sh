@@ -112,6 +112,11 @@ $line "camera focal lengths" "$ism" detect --model $model toys/test/test-0000.pn
 $line "none.png" "$ism" detect --model $model none.png -o out
 $line "test-0000.png" "$ism" detect --model $model toys/test/test-0000.png --depth toys/test/test-0000.png --depth-scale 1 -o out
 depth="toys/test/test-0000.png --depth toys/test/test-0000-depth.png"
+for kind in 'a JPEG image;\xff\xd8\xff' 'a TIFF image;II*\x00' 'a PNM image;P5 1 1 255 ' 'something else;{}' 'an empty file;'; do
+    printf "${kind#*;}" >depth.bad
+    $line "depth.bad': expected depth as a 16-bit PNG, got ${kind%%;*}" \
+        "$ism" detect --model $model toys/test/test-0000.png --depth depth.bad --depth-scale 0.001 -o out
+done
 $line "got 1, by which the median of the depth is" "$ism" detect --model $model $depth --depth-scale 1 -o out
 says "; 0.001 would make it" stderr.txt
 sed 's/"depth_scale":[0-9.]*/"depth_scale":1/' toys/train.json >toys/units.json

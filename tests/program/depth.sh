@@ -55,7 +55,7 @@ cmp <(grep -F '"image_id":2,' mixed | sed 's/,$//') <(grep -F '"image_id":2,' fo
     fail "an image with depth among others is detected otherwise"
 refused_in_a_line "vote space metric: expected depth_file_name in 'toys/colour.json'" \
     "$ism" detect --model model --data toys/colour.json -o out --space metric
-refused "test-0000.png': expected a depth image beside it, got none" \
+refused "test-0000.png': expected a depth image (depth_file_name), got none" \
     "$ism" detect --model model --data toys/mixed.json -o out --space metric
 sed -E 's/"camera":\{[^}]*\},//' toys/test.json >toys/no-camera.json
 refused "test-0000.png': expected its camera, got none" \
@@ -84,6 +84,19 @@ cp toys/test/covered.png toys/train
 "$ism" train --data toys/covered.json -o covered --no-templates >train.txt
 says "images       24" train.txt
 says "depth        of 2" train.txt
+
+# Depth among the pictures of a folder is no picture, in a folder a class as in one of images alone.
+mkdir -p kinds/toy
+cp toys/test/test-000?.png toys/test/test-000?-depth.png kinds/toy
+for data in kinds kinds/toy; do
+    "$ism" inspect --data $data >inspect.txt 2>note.txt
+    grep -qxE "images +2" inspect.txt || fail "$data: depth is a picture: $(cat inspect.txt)"
+    says "left out as depth: 2 of the images, which are grey PNG of 16 bits" note.txt
+done
+rm kinds/toy/test-000?.png
+"$ism" inspect --data kinds >inspect.txt 2>note.txt
+grep -qxE "images +2" inspect.txt || fail "pictures of 16 bits are depth: $(cat inspect.txt)"
+[[ ! -s note.txt ]] || fail "pictures of 16 bits: $(cat note.txt)"
 
 # A model of colours alone; its part of the other model is the same.
 "$ism" train --data toys/train.json -o flat --no-templates --no-depth >train.txt

@@ -67,6 +67,8 @@ shot=(toys/test/test-0000.png --depth toys/test/test-0000-depth.png --depth-scal
 "${detect[@]}" "${shot[@]}" --camera 262.5,262.5,159.5,119.5 >metres.txt 2>/dev/null
 awk -F '\t' '$8 < .3 || $8 > 3 || $11 < .3 || $11 > 3 {bad = 1} $12 != "-" {known = 1} END {exit bad || !known}' metres.txt ||
     fail "places: $(cat metres.txt)"
+"${detect[@]}" "${shot[@]}" --camera ' 262.5, 262.5,159.5 , 119.5' >blanks.txt 2>/dev/null
+cmp metres.txt blanks.txt || fail "blanks in --camera"
 "${detect[@]}" "${shot[@]}" --camera 262.5,262.5,459.5,119.5 >/dev/null 2>note.txt
 says "note: file 'toys/test/test-0000.png': the camera's principal point (459.5, 119.5) is outside of the image" note.txt
 "${detect[@]}" "${shot[@]}" >depth.txt 2>/dev/null

@@ -40,7 +40,7 @@ says '"image_id":2,' found
 
 # An image without depth among others with it.
 sed '0,/"depth_file_name":"[^"]*",/s///' toys/test.json >toys/part.json
-refused "expected a depth image beside it" "$ism" detect --model whole --data toys/part.json -o out --space ji3sm2
+refused "expected a depth image (depth_file_name)" "$ism" detect --model whole --data toys/part.json -o out --space ji3sm2
 
 # Of labels that make no sense, a box without area and an outline without a pixel, these alone are left out.
 sed -E '0,/"bbox":\[[^]]*\]/s//"bbox":[5,5,0,9]/; /"image_id":2,/s/"segmentation":\{[^}]*\}/"segmentation":[[1,1,1,2,1,3]]/' \

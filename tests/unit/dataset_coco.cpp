@@ -173,7 +173,7 @@ TEST_CASE("An annotation that makes no sense is refused with the place") {
     CHECK(read_error(annotation("")) ==
           at + "bbox: expected a box, or a segmentation to take it from, got neither");
     CHECK(read_error(annotation(box + R"(,"position_m":[1,2,-3])")) ==
-          at + "position_m: expected a place before the camera, z above 0, got an array of 3");
+          at + "position_m: expected a place before the camera, z above 0, got z = -3");
     CHECK(read_error(annotation(box + R"(,"position_m":[1,2])")) ==
           at + "position_m: expected three numbers x, y, z, got an array of 2");
     CHECK(read_error(annotation(R"(,"bbox":[1,2,3])")) ==
@@ -282,7 +282,7 @@ TEST_CASE("A frame is read with its depth in metres and its camera") {
     CHECK(error() == "nothing thrown");
     CHECK(ism::read_frame(image).depth_m.empty());
     ism::write_png16(folder / "d.png", ism::RawDepth(20, 17, 1));
-    CHECK(error() == depth_file + ": expected 20x16 pixels as its data set says, got 20x17");
+    CHECK(error() == depth_file + ": expected 20x16 pixels as its picture has, got 20x17");
     image.width = 21;
     CHECK(error() == color_file + ": expected 21x16 pixels as its data set says, got 20x16");
 }

@@ -130,6 +130,9 @@ TEST_CASE("Depth of 8 bits is refused, not widened") {
     CHECK(error_message<FileError>([&] { (void)ism::read_raw_depth(folder / "flat.png"); }) ==
           "file '" + (folder / "flat.png").string() +
               "': expected depth as a 16-bit PNG, got an image of 8 bits");
+    ism::write_file(folder / "flat.png", std::string("II*\0", 4));
+    CHECK(error_message<FileError>([&] { (void)ism::read_raw_depth(folder / "flat.png"); }) ==
+          "file '" + (folder / "flat.png").string() + "': expected depth as a 16-bit PNG, got a TIFF image");
 }
 
 TEST_CASE("A PNG cut at any length or changed in any byte is refused") {

@@ -151,7 +151,8 @@ inline void read_annotation(const Json& record, const std::string& file, const C
     if (const Json* position = optional_member(record, "position_m", place)) {
         annotation.position_m = position_from_json(*position, place);
         if (!(annotation.position_m->z > 0))
-            refuse_json(place, "position_m", "a place before the camera, z above 0", json_text(*position));
+            refuse_json(place, "position_m", "a place before the camera, z above 0",
+                        join_text("z = ", annotation.position_m->z));
     }
     image.objects.push_back(std::move(annotation));
 }

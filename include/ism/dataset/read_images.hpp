@@ -32,14 +32,14 @@ using PictureReader = Picture (*)(const std::filesystem::path&, std::optional<Im
 /// is smaller than 16×16, has a depth scale that check_depth_scale() refuses, or has depth and was turned:
 /// nothing tells whether the depth was turned too.
 [[nodiscard]] inline Frame read_frame(const DatasetImage& image, PictureReader read = read_picture) {
-    const auto check_size = [&](const std::filesystem::path& file, const auto& pixels) {
+    const auto check_size = [&](const std::filesystem::path& file, const auto& pixels, const char* as) {
         if (pixels.width() != image.width || pixels.height() != image.height)
             throw FileError(join_text(file_text(file), ": expected ", detail::sides_text(image),
-                                      " pixels as its data set says, got ", size_text(pixels)));
+                                      " pixels as ", as, ", got ", size_text(pixels)));
     };
     Picture picture = read(image.file, ImageSize{image.width, image.height});
     Frame frame{.gray = std::move(picture.gray), .color = std::move(picture.color)};
-    check_size(image.file, frame.gray);
+    check_size(image.file, frame.gray, "its data set says");
     if (!image.depth_file.empty()) {
         if (picture.orientation != 1)
             throw FileError(join_text(file_text(image.file),
@@ -47,7 +47,7 @@ using PictureReader = Picture (*)(const std::filesystem::path&, std::optional<Im
                                       "turns (orientation ",
                                       picture.orientation, ")"));
         const RawDepth raw = read_raw_depth(image.depth_file);
-        check_size(image.depth_file, raw);
+        check_size(image.depth_file, raw, "its picture has");
         frame.depth_m = to_metres(raw, image.depth_scale);
         at_place(file_text(image.depth_file), [&] { check_depth_scale(frame.depth_m, image.depth_scale); });
         if (!has_reading(frame.depth_m)) frame.depth_m = {};

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -96,9 +97,10 @@ struct ImageFile {
     return file;
 }
 
+inline constexpr std::uintmax_t most_image_bytes = std::uintmax_t(1) << 30;
+
 [[nodiscard]] inline ImageFile open_image(const std::filesystem::path& path) {
-    constexpr std::uintmax_t most_bytes = std::uintmax_t(1) << 30;
-    return open_image(file_text(path), read_bytes(path, most_bytes));
+    return open_image(file_text(path), read_bytes(path, most_image_bytes));
 }
 
 template <class Sample>
@@ -189,10 +191,28 @@ struct Picture {
     return picture;
 }
 
+namespace detail {
+
+/// @brief What a file is that is no PNG, for messages.
+[[nodiscard]] inline std::string_view kind_beside_png(std::span<const std::uint8_t> bytes) {
+    if (bytes.empty()) return "an empty file";
+    const ImageFormat format = image_format(bytes);
+    return format == ImageFormat::jpeg  ? "a JPEG image"
+           : format == ImageFormat::bmp ? "a BMP image"
+           : format == ImageFormat::pnm ? "a PNM image"
+                                        : other_image_format(bytes);
+}
+
+}  // namespace detail
+
 /// @brief Reads a depth camera's units from a 16-bit grey PNG file; 0 = no reading.
-/// @throws FileError as read_rgb() does, and where the file has 8 bits or colours.
+/// @throws FileError as read_rgb() does, and where the file is no PNG, has 8 bits or colours.
 [[nodiscard]] inline RawDepth read_raw_depth(const std::filesystem::path& path) {
-    const detail::ImageFile file = detail::open_image(path);
+    std::vector<std::uint8_t> bytes = read_bytes(path, detail::most_image_bytes);
+    if (detail::image_format(bytes) != detail::ImageFormat::png)
+        throw FileError(join_text(file_text(path), ": expected depth as a 16-bit PNG, got ",
+                                  detail::kind_beside_png(bytes)));
+    const detail::ImageFile file = detail::open_image(file_text(path), std::move(bytes));
     if (!file.deep) file.refuse("depth as a 16-bit PNG", "an image of 8 bits");
     if (file.channels != 1) file.refuse("depth as a grey PNG", join_text(file.channels, " channels"));
     const auto samples = detail::decode(file, 1, stbi_load_16_from_memory);
