@@ -190,6 +190,10 @@ public:
         }
     }
 
+    [[nodiscard]] bool searches_in_metres(const ism::Frame& frame) const {
+        return space_of(frame, search_.space, may_be_metric_) == metric_space;
+    }
+
     [[nodiscard]] ism::Detections find(const ism::Frame& frame, unsigned worker, bool explain) {
         SearchOptions search = search_;
         search.explain = explain;
@@ -306,6 +310,36 @@ void tell_nothing_found(std::span<const FoundInImage> found) {
                      count_text(without - most_named, "image").c_str());
 }
 
+/// The class of what is found where all depth is some times as far; empty where nothing probable is.
+std::string class_at(double factor, Searcher& searcher, ism::Frame frame, const ism::ShapeModel& shapes) {
+    for (float& depth_m : frame.depth_m.pixels()) depth_m = float(factor * double(depth_m));
+    for (const ism::Detection& object : searcher.find(frame, 0, false).objects)
+        if (object.probability >= 0.5) return shapes.class_names[object.class_index];
+    return {};
+}
+
+/// Where nothing at all was found in metres: whether a depth scale of ten times or a tenth finds something in
+/// the first images.
+void tell_other_scale(Searcher& searcher, const DetectInput& input, const Outcome& outcome) {
+    if (outcome.objects() > 0) return;
+    std::size_t left = 3;
+    for (std::size_t i = 0; i < outcome.found.size() && left > 0; ++i) {
+        const auto frame = frame_of(input, i);
+        if (!searcher.searches_in_metres(*frame)) continue;
+        --left;
+        for (const double factor : {0.1, 10.0}) {
+            const std::string name = class_at(factor, searcher, *frame, input.model.shapes);
+            if (name.empty()) continue;
+            const double scale = input.dataset.images[i].depth_scale;
+            const std::string text = ism::join_text(ism::one_line(outcome.found[i].name), ": by depth scale ",
+                                                    scale, " nothing is found, by ", factor * scale,
+                                                    " there would be: ", ism::one_line(name));
+            std::fprintf(stderr, "ism: note: %s\n", text.c_str());
+            return;
+        }
+    }
+}
+
 /// How many, how fast, and where, of pictures.
 void sum_up_pictures(const DetectCommand& command, const DetectInput& input, const Outcome& outcome,
                      const Overlays& overlays, double seconds) {
@@ -360,6 +394,7 @@ void run_detect(const DetectCommand& command) {
     write_outcome(command, outcome);
     if (!command.report.empty()) write_report(searcher, command, input, outcome);
     if (is_told(command)) tell_nothing_found(outcome.found);
+    tell_other_scale(searcher, input, outcome);
     if (command.images.empty())
         sum_up_data(command, input, outcome, watch.seconds());
     else

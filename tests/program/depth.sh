@@ -85,6 +85,11 @@ cp toys/test/covered.png toys/train
 says "images       24" train.txt
 says "depth        of 2" train.txt
 
+# A depth scale that is wrong by ten is noticed where the model knows sizes.
+sed 's/"depth_scale":0.001/"depth_scale":0.01/' toys/test.json >toys/far.json
+"$ism" detect --model model --data toys/far.json -o far >/dev/null 2>note.txt
+says "by depth scale 0.01 nothing is found, by 0.001 there would be: " note.txt
+
 # Depth among the pictures of a folder is no picture, in a folder a class as in one of images alone.
 mkdir -p kinds/toy
 cp toys/test/test-000?.png toys/test/test-000?-depth.png kinds/toy
