@@ -63,9 +63,12 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
     app.add_option("--class", command.classes, "learn this class only; may be given several times")
         ->take_all()
         ->expected(1);
-    only(app.add_option("--detector", command.detector, "finds features"), texts(program::detector_names))
+    only(app.add_option("--detector", command.detector,
+                        "finds features; the part of the model for depth always has dog"),
+         texts(program::detector_names))
         ->capture_default_str();
-    only(app.add_option("--descriptor", command.descriptor, "describes features"),
+    only(app.add_option("--descriptor", command.descriptor,
+                        "describes features; the part for depth always has root-sift"),
          texts(program::descriptor_names))
         ->capture_default_str();
     only(app.add_option("--orientation", command.orientation,
@@ -90,7 +93,7 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
     add_number(app, "--min-information-gain", command.options.selection.min_information_gain, {},
                "least information of a word about the class");
     add_number(app, "--max-words", command.options.selection.max_words, {},
-               "keep so many of the best words; 0 = all");
+               "keep so many of the best words, of the part for colours alone; 0 = all");
     only(app.add_option(
              "--best-words", command.best_words,
              "what --max-words goes by: how often a word is seen, its information gain, or how well its "
