@@ -120,7 +120,8 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
         add_to->excludes(app.get_option(fixed));
     CLI::Option* growable =
         app.add_flag("--growable", command.growable,
-                     "keep all training features, which --add-to learns from again; a larger file");
+                     "keep all training features, which --add-to learns from again, but not what the space "
+                     "metric needs; a larger file");
     add_to->excludes(growable);
     add_threads(app, command.options.threads);
     add_skip_bad(app, command.skip_bad);

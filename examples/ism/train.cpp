@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -9,14 +8,13 @@
 #include "extractors.hpp"
 #include "input.hpp"
 #include "learning.hpp"
+#include "lessons.hpp"
 #include "pictures.hpp"
 #include "progress.hpp"
-#include "spaces.hpp"
 
 #include "ism/dataset/read_images.hpp"
 #include "ism/model_file/model_file.hpp"
 #include "ism/train/append_training_features.hpp"
-#include "ism/train/orientation.hpp"
 #include "ism/train/select_words.hpp"
 #include "ism/train/vote_agreement.hpp"
 
@@ -28,7 +26,7 @@ namespace {
 struct Known {
     ism::TrainingFeatures features;
     std::vector<ism::AnyExtractor> extractors;
-    bool templates = false;
+    bool templates = false, depth = false;
 };
 
 /// The lessons of a model, and the options that it was learnt with.
@@ -41,7 +39,8 @@ Known lessons_of(const std::filesystem::path& path, ism::TrainOptions& options) 
     if (std::any_of(groups.begin(), groups.end(), [](std::uint32_t group) { return group > 0; }))
         options.codebook.kind = ism::CodebookKind::per_class;
     options.features.choose_upsampling = false;
-    return {ism::load_training_features(path), extractors_of(model), !model.templates.empty()};
+    return {ism::load_training_features(path), extractors_of(model), !model.templates.empty(),
+            !model.rgbd.empty()};
 }
 
 ism::WordWorth worth_of(const std::string& measure) {
@@ -61,22 +60,29 @@ ism::TrainingSet named_images(const ism::Dataset& dataset) {
     return set;
 }
 
-/// Learns the model for frames with depth from the images that have it, where every class has such images.
-/// @return what came of it, to be told; empty where no image has depth
-std::string add_depth(ism::Model& model, const ism::Dataset& dataset, const ism::TrainOptions& options,
-                      bool adding) {
-    ism::Dataset with_depth = dataset;
-    std::erase_if(with_depth.images,
-                  [](const ism::DatasetImage& image) { return image.depth_file.empty() || !image.camera; });
-    if (with_depth.images.empty()) return {};
-    if (adding) return "left out: what --add-to keeps has none; train anew for the space metric";
-    try {
-        model.rgbd = {learn_rgbd(dataset.class_names, named_images(with_depth), options)};
-    } catch (const ism::Error& error) {
-        return ism::join_text("left out, the space metric is not there: ", error.what());
+DepthImages depth_images(const ism::Dataset& dataset) {
+    DepthImages images;
+    for (std::size_t i = 0; i < dataset.images.size(); ++i) {
+        if (dataset.images[i].depth_file.empty()) continue;
+        ++images.with_depth;
+        if (dataset.images[i].camera) images.usable.push_back(i);
     }
+    return images;
+}
+
+/// Learns the model for frames with depth, which what --add-to keeps cannot.
+/// @return what came of it, to be told; empty where nothing has depth
+std::string learn_depth(ism::Model& model, const ism::Dataset& dataset, const ism::TrainOptions& options,
+                        const Known* known) {
+    const DepthImages images = depth_images(dataset);
+    if (known != nullptr)
+        return known->depth || images.with_depth > 0
+                   ? "left out: what --add-to keeps has none; train anew for the space metric"
+                   : "";
+    const std::string left_out = add_depth(model, named_images(dataset), images, options);
+    if (model.rgbd.empty()) return left_out;
     const ism::Model& rgbd = model.rgbd[0];
-    return ism::join_text("of ", with_depth.images.size(), " images: ", rgbd.words(), " words, ",
+    return ism::join_text("of ", images.usable.size(), " images: ", rgbd.words(), " words, ",
                           rgbd.shapes.frames.size(), " of them on objects, ", rgbd.mask_judge.examples.size(),
                           " regions");
 }
@@ -92,26 +98,12 @@ std::string lessons_text(const ism::ShapeModel& shapes) {
     return list_text(lessons);
 }
 
-/// What training objects tell of how they lie.
-std::string text_of(const ism::SharedFeatures& shared) {
-    if (!shared.conclusive()) return " (training objects share too few features to tell)";
-    return ism::join_text(" (", std::lround(100 * shared.upright_share()), " % of ", shared.count,
-                          " features that training objects share have one side up; 17 % by chance)");
-}
-
-/// Leaves out classes that are listed, as exports do, and that nothing shows.
-void leave_out_unused(ism::Dataset& dataset) {
-    std::vector<bool> shown(dataset.class_names.size(), false);
-    for (const ism::DatasetImage& image : dataset.images)
-        for (const ism::DatasetAnnotation& object : image.objects)
-            if (!object.crowd) shown[object.class_index] = true;
-    std::vector<std::string> used, unused;
-    for (std::size_t c = 0; c < shown.size(); ++c)
-        (shown[c] ? used : unused).push_back(dataset.class_names[c]);
-    if (unused.empty() || used.empty()) return;
-    std::fprintf(stderr, "ism: note: left out, since no label is of this class: %s\n",
-                 list_text(unused).c_str());
-    dataset = ism::select_classes(dataset, used);
+/// Leaves out classes that nothing shows, and tells which.
+void use_shown_classes(ism::Dataset& dataset) {
+    const std::vector<std::string> unused = leave_out_unused(dataset);
+    if (!unused.empty())
+        std::fprintf(stderr, "ism: note: left out, since no label is of this class: %s\n",
+                     list_text(unused).c_str());
 }
 
 }  // namespace
@@ -131,7 +123,7 @@ void run_train(const TrainCommand& command) {
     if (!command.classes.empty())
         dataset = ism::select_classes(dataset, command.classes);
     else
-        leave_out_unused(dataset);
+        use_shown_classes(dataset);
     Doubts doubts;
     const std::size_t skipped =
         check_images(dataset, options.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
@@ -152,14 +144,12 @@ void run_train(const TrainCommand& command) {
         known ? known->extractors : std::vector{make_extractor(command.detector, command.descriptor)};
     std::string why_so;
     bool templates = command.templates && (!known || known->templates);
-    if (!known && command.orientation != "upright") {
-        const ism::SharedFeatures shared =
-            program::shared_features(dataset.class_names, named_images(dataset), extractors, options.threads);
-        const bool free = command.orientation == "free" || !shared.one_side_up();
-        extractors.front().options().oriented = free;
-        // Templates judge as training objects lie: learnt from upright ones they would refuse turned ones.
-        templates = templates && !(free && shared.one_side_up());
-        why_so = text_of(shared);
+    if (!known) {
+        const Orientation orientation = choose_orientation(
+            command.orientation, dataset.class_names, named_images(dataset), extractors, options.threads);
+        extractors.front().options().oriented = orientation.free;
+        templates = templates && orientation.templates;
+        why_so = orientation.why_so;
     }
     options.features.pixels = templates;
     ism::TrainingFeatures features =
@@ -172,7 +162,8 @@ void run_train(const TrainCommand& command) {
         cut_out += model.shapes.objects[i].mask != features.objects[i].mask;
     const bool keep_features = command.growable || known;
     if (!keep_features) features = {};  // the memory is needed
-    const std::string depth = command.depth ? add_depth(model, dataset, options, known.has_value()) : "";
+    const std::string depth =
+        command.depth ? learn_depth(model, dataset, options, known ? &*known : nullptr) : "";
     ism::save_model(command.model, model, keep_features ? &features : nullptr);
     progress.clear();
 
@@ -196,10 +187,8 @@ void run_train(const TrainCommand& command) {
     std::printf("templates    %s\n", model.templates.empty() ? "no" : "yes");
     if (!depth.empty()) std::printf("depth        %s\n", depth.c_str());
     std::printf("seconds      %.1f\n", watch.seconds());
-    if (!model.calibration.empty() && !learnt_probabilities(model))
-        std::fprintf(stderr,
-                     "ism: note: too few objects to learn how sure to be of what is found: probabilities say "
-                     "little, and two or three more objects of each class make them much better\n");
+    if (const std::string doubt = doubt_of_probabilities(model); !doubt.empty())
+        std::fprintf(stderr, "ism: note: %s\n", doubt.c_str());
     std::printf("\nLearnt %s. Next:\n  %s detect --model %s photo.jpg\n", lessons_text(model.shapes).c_str(),
                 command.program.c_str(), shell_word(command.model.string()).c_str());
 }

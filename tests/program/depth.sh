@@ -115,7 +115,16 @@ cmp flat-found jism-found || fail "depth changes what jism finds"
 refused_in_a_line "--space metric: expected a model learnt from images with depth and camera, got one without" \
     "$ism" detect --model flat --data toys/test.json -o out --space metric
 
-# More classes are taught to the colours alone, which is said.
-"$ism" train --data toys/train.json -o two --no-templates --no-depth --class car --growable >/dev/null
-"$ism" train --data toys/train.json -o three --add-to two --class mug >train.txt
-says "depth        left out" train.txt
+# Depth without a camera cannot be learnt from, which is said.
+sed -E 's/"camera":\{[^}]*\},//' toys/train.json >toys/train-no-camera.json
+"$ism" train --data toys/train-no-camera.json -o flat --no-templates --class car >train.txt
+grep -qx "depth        left out: [0-9]* images have depth, none has a camera" train.txt || fail "$(cat train.txt)"
+
+# More classes are taught to the colours alone, which is said, also where the new images have no depth.
+sed -E 's/"depth_file_name":"[^"]*",//; s/"depth_scale":[0-9.]*,//' toys/train.json >toys/train-colour.json
+"$ism" train --data toys/train.json -o two --no-templates --class car --growable >train.txt
+says "depth        of " train.txt
+for data in train train-colour; do
+    "$ism" train --data toys/$data.json -o three --add-to two --class mug >train.txt
+    says "depth        left out: what --add-to keeps has none; train anew for the space metric" train.txt
+done
