@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
 import os
-from typing import Any, Dict, List, Mapping, Optional, Sequence, TypedDict, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, TypedDict, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,7 +37,10 @@ class Result(_ResultBase, total=False):
 class Error(ValueError): ...
 
 class Model:
-    categories: List[Dict[str, Any]]
+    @property
+    def categories(self) -> List[Dict[str, Any]]: ...
+    @categories.setter
+    def categories(self, dicts: Iterable[Mapping[str, Any]]) -> None: ...
     def detect(
         self,
         image: Array,
@@ -48,7 +51,7 @@ class Model:
         space: str = "auto",
         min_score: Optional[float] = None,
         turns: int = 1,  # angles by which the image is looked at
-        depth_scale: float = 0.001,
+        depth_scale: Optional[float] = None,
         order: str = "rgb",
         threads: int = 0,
     ) -> List[Result]: ...
@@ -63,10 +66,11 @@ def train(
     *,
     detector: str = "hessian-laplace",
     descriptor: str = "root-sift",
+    orientation: str = "auto",
     templates: bool = True,
     max_words: int = 0,
     max_features: int = 40000,
-    depth_scale: float = 0.001,
+    depth_scale: Optional[float] = None,
     order: str = "rgb",
     seed: int = 1,
     threads: int = 0,

@@ -10,6 +10,7 @@ import subprocess
 import threading
 import time
 import types
+import warnings
 
 import numpy as np
 import pytest
@@ -136,31 +137,80 @@ def write_bmp(path, image):
     path.write_bytes(header + image[::-1, :, ::-1].tobytes())
 
 
-@pytest.mark.skipif(not os.environ.get("ISM_PROGRAM"), reason="the program ism is not built")
+def run_program(folder, *arguments):
+    command = [os.environ["ISM_PROGRAM"], *arguments]
+    return subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
+
+
+def write_data(folder, coco, images):
+    for image in coco["images"]:
+        image["file_name"] = f"{image['id']}.bmp"
+        write_bmp(folder / image["file_name"], images[image["id"]])
+    (folder / "coco.json").write_text(json.dumps(coco))
+
+
+needs_program = pytest.mark.skipif(not os.environ.get("ISM_PROGRAM"), reason="the program ism is not built")
+
+
+@needs_program
 @pytest.mark.parametrize("templates", [False, True])
 def test_finds_what_the_program_finds(images, tmp_path, templates):
     coco = make_coco()
-    for image in coco["images"]:
-        image["file_name"] = f"{image['id']}.bmp"
-        write_bmp(tmp_path / image["file_name"], images[image["id"]])
-    (tmp_path / "coco.json").write_text(json.dumps(coco))
+    write_data(tmp_path, coco, images)
     learnt = ism.train(coco, images, templates=templates)
     learnt.save(tmp_path / "model.safetensors")
-
-    def run(*arguments):
-        command = [os.environ["ISM_PROGRAM"], *arguments]
-        return subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True).stdout
-
-    run("detect", "--model", "model.safetensors", "--data", "coco.json", "-o", "found.json")
+    run_program(tmp_path, "detect", "--model", "model.safetensors", "--data", "coco.json", "-o", "found.json")
     by_program = json.loads((tmp_path / "found.json").read_text())
     found = [result for i in PLACES for result in learnt.detect(images[i], image_id=i)]
     keys = ["image_id", "category_id", "class", "bbox", "score", "segmentation"]
     assert found and [[r[k] for k in keys] for r in found] == [[r[k] for k in keys] for r in by_program]
     # … and learns.
     options = [] if templates else ["--no-templates"]
-    run("train", "--data", "coco.json", "-o", "again.safetensors", *options)
+    run_program(tmp_path, "train", "--data", "coco.json", "-o", "again.safetensors", *options)
     assert (tmp_path / "again.safetensors").read_bytes() == (tmp_path / "model.safetensors").read_bytes()
-    assert f"words           {learnt.info()['words']}\n" in run("info", "model.safetensors")
+    assert f"words           {learnt.info()['words']}\n" in run_program(tmp_path, "info", "model.safetensors")
+
+
+@needs_program
+@pytest.mark.parametrize("orientation", ["auto", "upright", "free"])
+@pytest.mark.parametrize("turned", [False, True])
+def test_learns_as_the_program_learns(images, tmp_path, orientation, turned):
+    coco = make_coco()
+    if turned:  # each picture with its labels by another angle
+        images = {i: np.ascontiguousarray(np.rot90(image, k)) for k, (i, image) in enumerate(images.items())}
+        for k, label in enumerate(coco["annotations"]):
+            mask = np.rot90(mask_at(*PLACES[label["image_id"]]), k)
+            rows, columns = np.nonzero(mask)
+            label["bbox"] = [int(columns.min()), int(rows.min()), 64, 64]
+            label["segmentation"] = ism.encode_mask(mask)
+    coco["categories"].append({"id": 31, "name": "nowhere"})
+    write_data(tmp_path, coco, images)
+    with pytest.warns(UserWarning, match="left out, since no annotation is of this category: nowhere"):
+        learnt = ism.train(coco, images, orientation=orientation)
+    learnt.save(tmp_path / "model.safetensors")
+    told = run_program(
+        tmp_path, "train", "--data", "coco.json", "-o", "again.safetensors", "--orientation", orientation
+    )
+    assert (tmp_path / "again.safetensors").read_bytes() == (tmp_path / "model.safetensors").read_bytes()
+    info = learnt.info()
+    assert info["orientation"] == {"auto": "free" if turned else "upright"}.get(orientation, orientation)
+    assert f"orientation  {info['orientation']}" in told
+    assert learnt.categories == [{"id": 30, "name": "carpet"}] and info["classes"] == ["carpet"]
+
+
+def test_categories_that_nothing_shows_are_left_out(images):
+    coco = make_coco()
+    coco["categories"].insert(0, {"id": 29, "name": "nowhere"})
+    coco["images"].insert(0, {"id": 3, "file_name": "3.png", "width": SIDE, "height": SIDE})
+    coco["annotations"].append({"id": 99, "image_id": 3, "category_id": 29, "bbox": [1, 2, 60, 60], "iscrowd": 1})
+    in_order = [np.full((SIDE, SIDE), 90, dtype=np.uint8)] + [images[i] for i in PLACES]
+    with pytest.warns(UserWarning, match="left out, since no annotation is of this category: nowhere"):
+        learnt = ism.train(coco, in_order, templates=False)  # and the image that shows nothing else
+    assert learnt.categories == [{"id": 30, "name": "carpet"}] and learnt.info()["images"] == 3
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(UserWarning, match="nowhere"):
+            ism.train(coco, in_order, templates=False)
 
 
 def test_templates_and_depth():
@@ -189,6 +239,80 @@ def test_templates_and_depth():
         learnt.detect(picture(50, 10), space="metric")
     with pytest.raises(ValueError, match="depth image size: expected 128x128, got 10x10"):
         learnt.detect(picture(50, 10), np.ones((10, 10)), camera)
+    for kind in ("int16", "int32", ">u2", "uint32", "int64"):
+        again = learnt.detect(picture(50, 10), units.astype(kind), camera, min_score=0)
+        assert again == learnt.detect(picture(50, 10), units, camera, min_score=0), kind
+    assert again == learnt.detect(picture(50, 10), units.astype(float), camera, min_score=0, depth_scale=0.001)
+    assert again == learnt.detect(picture(50, 10), (10 * units), camera, min_score=0, depth_scale=0.0001)
+    expected = "depth: expected a numpy array of whole numbers of 16 to 64 bits .*, float32 or float64 .*, got "
+    for bad in (np.ones((SIDE, SIDE), np.uint8), np.ones((SIDE, SIDE, 3)), np.ones((SIDE, SIDE), bool), [[1.0]]):
+        with pytest.raises(ism.Error, match=expected):
+            learnt.detect(picture(50, 10), bad, camera)
+    for scale in (0, -1, np.nan):
+        with pytest.raises(ism.Error, match="depth_scale: expected metres a unit, above 0, got "):
+            learnt.detect(picture(50, 10), units, camera, depth_scale=scale)
+
+
+def test_what_is_learnt_without_depth_is_told(images):
+    coco, depths = make_coco(), {7: np.ones((SIDE, SIDE)), 11: None}
+    with pytest.warns(UserWarning, match="depth left out: 1 image has depth, and no camera"):
+        learnt = ism.train(coco, images, depths, templates=False)
+    assert not learnt.info()["depth"]
+    with pytest.warns(UserWarning, match="depth left out: 3 images have depth, none has a camera"):
+        ism.train(coco, images, 3 * [np.ones((SIDE, SIDE))], templates=False)
+    # One of two classes is never seen with depth.
+    coco["categories"].append({"id": 31, "name": "rug"})
+    coco["annotations"][2]["category_id"] = 31
+    for image in coco["images"][:2]:
+        image["camera"] = {"fx": 200.0, "fy": 200.0, "cx": 63.5, "cy": 63.5}
+    with pytest.warns(UserWarning, match="depth left out, the space metric is not there: .*rug"):
+        learnt = ism.train(coco, images, [np.ones((SIDE, SIDE)), np.ones((SIDE, SIDE)), None], templates=False)
+    assert not learnt.info()["depth"] and learnt.info()["classes"] == ["carpet", "rug"]
+
+
+def test_depths_of_no_image_are_refused(images):
+    depth = np.ones((SIDE, SIDE))
+    for key, got in [("7", "'7'"), (8, "8"), ((7,), r"\(7,\)")]:
+        with pytest.raises(ism.Error, match=f"depths: expected ids of coco\\['images'\\] as keys, got {got}"):
+            ism.train(make_coco(), images, {7: depth, key: depth})
+    four = [picture(0, 0)] * 4
+    with pytest.raises(ism.Error, match="images: expected 3 arrays, one for each of coco.*, got 4"):
+        ism.train(make_coco(), four)
+    with pytest.raises(ism.Error, match="depths: expected 3 arrays, one for each of coco.*, got 4"):
+        ism.train(make_coco(), images, [depth] * 4)
+    with pytest.raises(ism.Error, match="image with id 11, depth: size: expected 128x128, got 9x9"):
+        ism.train(make_coco(), images, {11: np.ones((9, 9))})
+
+
+def test_too_few_objects_are_told(images):
+    coco = make_coco()
+    coco["images"], coco["annotations"] = coco["images"][:1], coco["annotations"][:1]
+    with pytest.warns(UserWarning, match="too few objects to learn how sure to be of what is found"):
+        ism.train(coco, images, templates=False)
+
+
+def test_categories_are_set_by_any_dicts(model):
+    own = model.categories
+    for dicts in [
+        ({"id": np.int64(5), "name": "carpet"},),
+        iter([{"id": 5, "name": "carpet"}]),
+        [types.MappingProxyType({"id": 5, "name": "carpet"})],
+    ]:
+        model.categories = dicts
+        assert model.categories == [{"id": 5, "name": "carpet"}]
+    model.categories = own
+    carpet = {"id": 5, "name": "carpet"}
+    for bad, message in [
+        ([carpet, {"id": 5, "name": "rug"}], "categories: expected each id once, got 5 twice"),
+        ([carpet, {"id": 6, "name": "carpet"}], "categories: expected each name once, got 'carpet' twice"),
+        (carpet, "categories: expected dicts with id and name, got dict"),
+        (5, "categories: expected dicts with id and name, got int"),
+        (["carpet"], r"categories\[0\]: expected a dict, got str"),
+        ([{"name": "carpet"}], r"categories\[0\]: id: expected a whole number, got nothing"),
+    ]:
+        with pytest.raises(ism.Error, match=message):
+            model.categories = bad
+    assert model.categories == own
 
 
 def test_masks_as_pycocotools_packs_them():
@@ -201,6 +325,39 @@ def test_masks_as_pycocotools_packs_them():
     assert (ism.decode_mask({"size": [3, 4], "counts": [4, 2, 6]}) == mask).all()
     with pytest.raises(ValueError, match="sum of 12, got 6"):
         ism.decode_mask({"size": [3, 4], "counts": [4, 2]})
+
+
+def test_masks_of_all_whole_numbers():
+    figure = np.zeros((3, 4), dtype=bool)
+    figure[1:, 1] = True
+    packed = ism.encode_mask(figure)
+    for kind in ("uint8", "int8", "uint16", "int32", ">i2", "int64", "uint64"):
+        assert ism.encode_mask(figure.astype(kind)) == packed
+    assert ism.encode_mask(256 * figure.astype(np.int64)) == packed
+    assert ism.encode_mask(-65536 * figure.astype(np.int64)) == packed
+    assert ism.encode_mask(np.asfortranarray(figure)) == packed
+    assert ism.encode_mask(figure.tolist()) == packed
+    expected = "mask: expected a mask of bool or whole numbers of shape .*, got "
+    for bad in (figure * 0.5, np.full((3, 4), np.nan), figure[0], np.full((3, 4), "a"), [[1], [1, 2]], None):
+        with pytest.raises(ism.Error, match=expected):
+            ism.encode_mask(bad)
+    with pytest.raises(ism.Error, match="mask: mask size: expected"):
+        ism.encode_mask(np.zeros((0, 4), dtype=bool))
+
+
+def test_masks_of_numpy_are_segmentations(model, images):
+    usual = model.detect(picture(50, 10))
+    for kind in (bool, np.uint8, np.int64):
+        learnt = ism.train(make_coco(lambda mask: mask.astype(kind)), images, templates=False)
+        assert learnt.detect(picture(50, 10)) == usual
+    with pytest.raises(ism.Error, match=r"coco, annotations\[0\].segmentation: expected a mask of bool or whole"):
+        ism.train(make_coco(lambda mask: mask * 0.5), images)
+    with pytest.raises(ism.Error, match="segmentation size: expected 128x128, got 64x128"):
+        ism.train(make_coco(lambda mask: mask[:, 32:96]), images)
+    corners = [[20, 24, 84, 24, 84, 88, 20, 88]]
+    coco = make_coco()
+    coco["annotations"][0]["segmentation"] = np.array(corners)  # polygons are no mask
+    ism.train(coco, images, templates=False)
 
 
 def test_other_threads_run_meanwhile(model):
@@ -249,7 +406,7 @@ def test_bad_input_is_a_value_error(model, images):
 
     with pytest.raises(ValueError, match="images: expected an array for image id 12, got none"):
         ism.train(make_coco(), {i: images[i] for i in (7, 11)})
-    with pytest.raises(ValueError, match="expected an array for image 2 of coco\\['images'\\], got 2 arrays"):
+    with pytest.raises(ValueError, match="images: expected 3 arrays, one for each of coco\\['images'\\], got 2"):
         ism.train(make_coco(), [images[7], images[11]])
     with pytest.raises(ValueError, match="images: expected a dict by image id, or a list in the order of .*, got int"):
         ism.train(make_coco(), 3)
@@ -261,8 +418,27 @@ def test_bad_input_is_a_value_error(model, images):
         ism.train(broken, images)
     with pytest.raises(ValueError, match="coco: expected a dict, got list"):
         ism.train([], images)
-    with pytest.raises(ValueError, match="coco: expected what JSON can hold, got set"):
+    with pytest.raises(ValueError, match="coco, more: expected what JSON can hold, got set"):
         ism.train({**make_coco(), "more": set()}, images)
+    for change, message in [
+        (lambda c: c["annotations"][1].update(bbox=[1, np.nan, 2, 3]), r"annotations\[1\].bbox\[1\]: .* got nan"),
+        (lambda c: c["images"][0].update(camera={"fx": np.float32("inf")}), r"images\[0\].camera.fx: .* got inf"),
+        (lambda c: c["categories"][0].update(name=b"\xff"), r"categories\[0\].name: expected bytes of ASCII"),
+        (lambda c: c["categories"][0].update(name="\ud800"), r"categories\[0\].name: expected text in Unicode"),
+        (lambda c: c["images"][2].update({5: 1}), r"images\[2\]: expected keys that are strings, got 5"),
+        (lambda c: c["images"][2].update(id=1 << 70), r"images\[2\].id: expected a whole number of 64 bits"),
+        (lambda c: c.update(more=c), "expected at most 64 levels, got more"),
+    ]:
+        broken = make_coco()
+        change(broken)
+        with pytest.raises(ism.Error, match=f"^coco, .*{message}"):
+            ism.train(broken, images)
+    with pytest.raises(ism.Error, match="^camera, fx: expected a number, got nan"):
+        model.detect(picture(0, 0), camera={"fx": np.nan})
+    with pytest.raises(ism.Error, match="mask, counts: expected bytes of ASCII"):
+        ism.decode_mask({"size": [3, 4], "counts": b"\xe9"})
+    with pytest.raises(ism.Error, match="orientation: expected 'auto', 'upright' or 'free', got 'down'"):
+        ism.train(make_coco(), images, orientation="down")
     with pytest.raises(ValueError, match="detector .* got none and root-sift"):
         ism.train(make_coco(), images, detector="none")
 
@@ -282,7 +458,8 @@ def test_stubs_are_what_the_module_has():
     functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
     classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
     assert set(functions) == {name for name in ism.__all__ if inspect.isbuiltin(getattr(ism, name))}
-    methods = {node.name: node for node in classes["Model"].body if isinstance(node, ast.FunctionDef)}
+    members = [node for node in classes["Model"].body if isinstance(node, ast.FunctionDef)]
+    methods = {node.name: node for node in members if not node.decorator_list and not node.name.startswith("_")}
     own = {name for name in vars(ism.Model) if not name.startswith("_")}
     assert own == set(methods) | {"categories"}
     for name, node in {**functions, **methods}.items():
