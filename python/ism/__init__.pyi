@@ -1,42 +1,22 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
 import os
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, TypedDict, Union
+from typing import Any, Dict, Iterable, List, Mapping, NoReturn, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .types import Array as Array
+from .types import Arrays as Arrays
+from .types import Result as Result
+from .types import Rle as Rle
+
 __version__: str
-
-Array = NDArray[Any]
-"""uint8, uint16 or float (0 ... 1) of shape (height, width) or (height, width, 3 or 4)."""
-Arrays = Union[Mapping[int, Array], Sequence[Array], Array]
-"""By image id, or in the order of coco["images"]: a list or one stack of arrays."""
-
-class Rle(TypedDict):
-    size: List[int]  # height, width
-    counts: str  # as pycocotools packs them
-
-_Named = TypedDict("_Named", {"class": str})
-
-class _ResultBase(_Named):
-    image_id: int
-    category_id: int
-    bbox: List[float]  # x, y, width, height
-    score: float
-    scale: float
-    segmentation: Rle
-
-class Result(_ResultBase, total=False):
-    probability: float
-    depth_m: float
-    position_m: List[float]  # x right, y down, z forward of the camera
-    position_error_m: float  # standard error
-    angle_rad: float  # of what is turned, from x towards y
 
 class Error(ValueError): ...
 
 class Model:
+    def __init__(self, made_by_train_and_load: NoReturn) -> None: ...
     @property
     def categories(self) -> List[Dict[str, Any]]: ...
     @categories.setter

@@ -58,5 +58,6 @@ if(PROGRAM)
 endif()
 if(PYTHON)
     check(python3-ism "[a-z0-9]+" "^python3 \\(>= 3\\.[0-9]+\\), python3 \\(<< 3\\.[0-9]+\\), python3-numpy"
-          "lib/python3/dist-packages/ism/_ism*.so" lib/python3/dist-packages/ism/py.typed)
+          "lib/python3/dist-packages/ism/_ism*.so" lib/python3/dist-packages/ism/py.typed
+          lib/python3/dist-packages/ism/types.py)
 endif()
