@@ -71,7 +71,7 @@ void add_functions(py::module_& module) {
         [](const py::object& coco, const py::object& images, const py::object& depths,
            const std::string& detector, const std::string& descriptor, const std::string& orientation,
            bool templates, std::size_t max_words, std::size_t max_features, std::optional<double> depth_scale,
-           const std::string& order, std::uint64_t seed, unsigned threads) {
+           const std::string& order, std::uint64_t seed, unsigned threads, const py::object& progress) {
             return train(coco, images, depths,
                          {.detector = detector,
                           .descriptor = descriptor,
@@ -82,14 +82,15 @@ void add_functions(py::module_& module) {
                           .depth_scale = depth_scale,
                           .order = order,
                           .seed = seed,
-                          .threads = threads});
+                          .threads = threads,
+                          .progress = progress});
         },
         "coco"_a, "images"_a, "depths"_a = py::none(), py::kw_only(),
         "detector"_a = std::string(program::default_detector),
         "descriptor"_a = std::string(program::default_descriptor),
         "orientation"_a = std::string(program::default_orientation), "templates"_a = true, "max_words"_a = 0,
         "max_features"_a = 40000, "depth_scale"_a = py::none(), "order"_a = "rgb", "seed"_a = 1,
-        "threads"_a = 0, "Learns a model from images and their COCO labels.");
+        "threads"_a = 0, "progress"_a = py::none(), "Learns a model from images and their COCO labels.");
     module.def("encode_mask", &encode_mask, "mask"_a, "A mask as COCO's packed run lengths.");
     module.def("decode_mask", &decode_mask, "rle"_a, "COCO's run lengths as an array of 0 and 1.");
 }

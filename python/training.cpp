@@ -3,6 +3,7 @@
 #include "training.hpp"
 
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -92,6 +93,13 @@ program::DepthImages depth_images(const ism::Dataset& dataset, const ArraysById&
     return images;
 }
 
+/// Raises what a signal raises, as that of Ctrl-C does, or `progress`; it leaves the threads as an exception.
+void tell(const py::object& progress, std::string_view stage, std::size_t done, std::size_t total) {
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!progress.is_none()) progress(std::string(stage), done, total);
+}
+
 /// Learns a model of all that images show; needs no Python.
 ism::Model learn_colors(const ism::Dataset& dataset, const ism::TrainingSet& set, const Training& training,
                         ism::TrainOptions& options) {
@@ -118,7 +126,13 @@ PythonModel train(const py::object& coco, const py::object& images, const py::ob
     if (!unused.empty())
         warn("left out, since no annotation is of this category: " + program::list_text(unused));
 
-    ism::TrainOptions options{.threads = training.threads};
+    ism::expect(training.progress.is_none() || PyCallable_Check(training.progress.ptr()) != 0, "progress",
+                "a function of stage, done and total", type_text(training.progress));
+    ism::TrainOptions options{
+        .threads = training.threads,
+        .progress = [&training](std::string_view stage, std::size_t done, std::size_t total) {
+            tell(training.progress, stage, done, total);
+        }};
     options.features.max_features = training.max_features;
     options.selection.max_words = training.max_words;
     options.codebook.seed = training.seed;

@@ -20,9 +20,11 @@ struct Training {
     std::string order = "rgb";
     std::uint64_t seed = 1;
     unsigned threads = 0;
+    py::object progress = py::none();  ///< called with stage, done, total
 };
 
-/// Learns as the program does, and warns of what it tells.
+/// Learns as the program does, and warns of what it tells. Signals, such as that of Ctrl-C, are heard at each
+/// step.
 /// @param coco    COCO's dict
 /// @param images  arrays by image id, or in the order of coco["images"]; so depths, which may be None
 [[nodiscard]] PythonModel train(const py::object& coco, const py::object& images, const py::object& depths,

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
 import os
-from typing import Any, Dict, Iterable, List, Mapping, NoReturn, Optional, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, NoReturn, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -54,6 +54,7 @@ def train(
     order: str = "rgb",
     seed: int = 1,
     threads: int = 0,
+    progress: Optional[Callable[[str, int, int], object]] = None,  # stage, done, total
 ) -> Model: ...
 def encode_mask(mask: ArrayLike) -> Rle: ...
 def decode_mask(rle: Mapping[str, Any]) -> NDArray[np.uint8]: ...

@@ -5,11 +5,13 @@ import inspect
 import json
 import os
 import pathlib
+import signal
 import struct
 import subprocess
 import threading
 import time
 import types
+import typing
 import warnings
 
 import numpy as np
@@ -381,6 +383,51 @@ def test_other_threads_run_meanwhile(model):
     assert len(gaps) > 10 and max(gaps) < 0.7 * took
 
 
+def many_images(count=24):
+    coco = make_coco()
+    places = {i: (10 + i % 7 * 7, 10 + i // 7 * 7) for i in range(count)}
+    coco["images"] = [{"id": i, "file_name": f"{i}.png", "width": SIDE, "height": SIDE} for i in places]
+    coco["annotations"] = [
+        {"id": i, "image_id": i, "category_id": 30, "bbox": [x, y, 64, 64]} for i, (x, y) in places.items()
+    ]
+    return coco, {i: picture(x, y) for i, (x, y) in places.items()}
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_signal_stops_training(threads):
+    coco, images = many_images()
+    begin = time.perf_counter()
+    ism.train(coco, images, threads=threads)
+    took = time.perf_counter() - begin
+    timer = threading.Timer(took / 10, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    begin = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        ism.train(coco, images, threads=threads)
+        time.sleep(took)  # where the signal is not heard before
+        pytest.fail("no signal")
+    assert time.perf_counter() - begin < 0.7 * took
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_progress_is_told(images, model, threads):
+    told = []
+    learnt = ism.train(make_coco(), images, templates=False, threads=threads, progress=lambda *how: told.append(how))
+    assert learnt.detect(picture(50, 10)) == model.detect(picture(50, 10))
+    stages = [stage for stage, _, _ in told]
+    assert [done for stage, done, total in told if stage == "extracting features"] == [1, 2, 3]
+    assert "clustering" in stages and all(0 <= done <= total for _, done, total in told)
+
+    def stop(stage, done, total):
+        raise RuntimeError(f"{stage}: stopped")
+
+    for _ in range(5):
+        with pytest.raises(RuntimeError, match="extracting features: stopped"):
+            ism.train(make_coco(), images, threads=threads, progress=stop)
+    with pytest.raises(ism.Error, match="progress: expected a function of stage, done and total, got int"):
+        ism.train(make_coco(), images, progress=3)
+
+
 def test_bad_input_is_a_value_error(model, images):
     assert issubclass(ism.Error, ValueError)
     expected = "image: expected a numpy array of uint8, uint16, float32 or float64 of shape"
@@ -467,6 +514,19 @@ def test_stubs_are_what_the_module_has():
         names = [a.arg for a in node.args.args + node.args.kwonlyargs]
         told = [part.split(":")[0].strip() for part in split_arguments(real)]
         assert names == [part for part in told if part != "*"], name
+
+
+def test_types_are_there_at_run_time(model):
+    found = model.detect(picture(50, 10))[0]
+    hints = typing.get_type_hints(ism.Result)
+    assert set(found) <= set(hints) and ism.Result.__required_keys__ <= set(found)
+    assert hints["segmentation"] is ism.Rle and set(typing.get_type_hints(ism.Rle)) == set(found["segmentation"])
+    assert set(ism.__all__) == {name for name in vars(ism) if not name.startswith("_") and name != "types"} | {
+        "__version__"
+    }
+    typing.List[ism.Array], typing.Optional[ism.Arrays]
+    with pytest.raises(TypeError):
+        ism.Model()
 
 
 def split_arguments(signature):
