@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
-#include "ism/model_file/model_file.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -22,6 +20,7 @@
 #include "ism/feature/harris_laplace.hpp"
 #include "ism/feature/hessian_laplace.hpp"
 #include "ism/feature/sift.hpp"
+#include "ism/model_file/model_bytes.hpp"
 
 using ism::FileError;
 using ism::test::error_message;
@@ -290,6 +289,8 @@ TEST_CASE("Models come back bit for bit, in the same bytes every time") {
     CHECK(read.channels[1].features.descriptor == "gray-patch");
     ism::save_model(folder / "again", read);
     CHECK(ism::read_bytes(folder / "m") == ism::read_bytes(folder / "again"));
+    CHECK(ism::read_text(folder / "m") == ism::model_to_bytes(model));
+    check_equal(model, ism::model_from_bytes(ism::model_to_bytes(model)));
 
     ism::Model sparse = model;  // of a surface nothing but where it is; no frames, judge or inner model
     sparse.rgbd.clear();
@@ -440,6 +441,18 @@ TEST_CASE("A model file that was cut off or altered at any place is refused") {
     CHECK(accepted <= 1);
     CHECK(header > 4000);
     CHECK(tried > 1000);
+}
+
+TEST_CASE("Bytes that are no whole model are refused") {
+    const std::string bytes = ism::model_to_bytes(random_model());
+    const auto refused = [](const std::string& altered, const std::string& message) {
+        CHECK_THROWS_WITH(ism::model_from_bytes(altered), Catch::Matchers::Contains(message));
+    };
+    refused("", "model: expected a safetensors file, got 0 bytes");
+    refused(bytes.substr(0, bytes.size() - 1), "model");
+    std::string other = bytes;
+    other.back() = char(other.back() ^ 1);
+    refused(other, "model: expected unchanged content (checksum), got altered content");
 }
 
 TEST_CASE("A model file that contradicts itself is refused") {

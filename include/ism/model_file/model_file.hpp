@@ -36,9 +36,8 @@ inline constexpr std::int64_t model_format_version = 18;
     return to_number(parse_json(metadata_text(file, key), place + " '" + key + "'"), key, place);
 }
 
-/// Reads a file and makes sure that it is a whole model of this version.
-[[nodiscard]] inline TensorFile open_model(const std::filesystem::path& path) {
-    TensorFile file = read_safetensors(path);
+/// Makes sure that a file is a whole model of this version.
+inline void check_model(const TensorFile& file) {
     const auto format = file.metadata.find("format");
     expect<FileError>(format != file.metadata.end() && format->second == model_format, file.source,
                       "a model of ism", "another safetensors file");
@@ -50,6 +49,11 @@ inline constexpr std::int64_t model_format_version = 18;
          {std::pair("reference_size_px", reference_size_px), std::pair("mask_cell_px", mask_cell_px)})
         expect<FileError>(metadata_number(file, key) == here, lazy_text(file.source, ": ", key), here,
                           metadata_text(file, key));
+}
+
+[[nodiscard]] inline TensorFile open_model(const std::filesystem::path& path) {
+    TensorFile file = read_safetensors(path);
+    check_model(file);
     return file;
 }
 

@@ -98,40 +98,52 @@ inline constexpr std::size_t max_header_bytes = std::size_t(1) << 24;
     return detail::read_tensors(stream, bytes, text);
 }
 
-/// @brief Writes a safetensors file atomically, with a checksum in the metadata as "data_hash". The same
-/// content gives the same bytes.
-/// @throws FileError where the file cannot be written, a name or text is not UTF-8, a name is "__metadata__",
-/// the metadata has "data_hash", a tensor's bytes do not fit its shape, or the header becomes too long.
-inline void write_safetensors(const std::filesystem::path& path, const TensorFile& file) {
-    using detail::Json;
-    const std::string text = file_text(path);
-    if (file.tensors.contains("__metadata__") || file.metadata.contains(detail::checksum_key))
+namespace detail {
+
+/// @brief What a safetensors file begins with: the length of the header, and the header.
+/// @param text  the file, for messages
+[[nodiscard]] inline std::string file_head(const TensorFile& file, const std::string& text) {
+    if (file.tensors.contains("__metadata__") || file.metadata.contains(checksum_key))
         throw FileError(text + ": expected other names than '__metadata__' and 'data_hash', got one of them");
     Json header = {{"__metadata__", file.metadata}};
-    header["__metadata__"][detail::checksum_key] = detail::checksum(file);
+    header["__metadata__"][checksum_key] = checksum(file);
     std::size_t end = 0;
-    const auto order = detail::storage_order(file);
-    for (const auto& [name, tensor] : order) {
-        expect<FileError>(detail::shape_fills(tensor->shape, tensor->type, tensor->bytes.size()),
+    for (const auto& [name, tensor] : storage_order(file)) {
+        expect<FileError>(shape_fills(tensor->shape, tensor->type, tensor->bytes.size()),
                           lazy_text(text, ", tensor '", name, "': bytes"),
-                          lazy_text(type_name(tensor->type), detail::shape_text(tensor->shape)),
+                          lazy_text(type_name(tensor->type), shape_text(tensor->shape)),
                           tensor->bytes.size());
         header[name] = {{"dtype", std::string(type_name(tensor->type))},
                         {"shape", tensor->shape},
                         {"data_offsets", {end, end + tensor->bytes.size()}}};
         end += tensor->bytes.size();
     }
-    std::string head = detail::dump_json(header, text);
+    std::string head = dump_json(header, text);
     head.append((8 - head.size() % 8) % 8, ' ');  // the data begin at a multiple of 8
-    expect<FileError>(head.size() <= detail::max_header_bytes, lazy_text(text, ": bytes of header"),
-                      lazy_text("up to ", detail::max_header_bytes), head.size());
+    expect<FileError>(head.size() <= max_header_bytes, lazy_text(text, ": bytes of header"),
+                      lazy_text("up to ", max_header_bytes), head.size());
+    const std::uint64_t length = head.size();
+    return std::string(reinterpret_cast<const char*>(&length), 8) + head;
+}
+
+/// @brief Writes to a stream what follows after its head.
+inline void write_data(std::ostream& stream, const TensorFile& file) {
+    for (const auto& [name, tensor] : storage_order(file))
+        stream.write(reinterpret_cast<const char*>(tensor->bytes.data()),
+                     std::streamsize(tensor->bytes.size()));
+}
+
+}  // namespace detail
+
+/// @brief Writes a safetensors file atomically, with a checksum in the metadata as "data_hash". The same
+/// content gives the same bytes.
+/// @throws FileError where the file cannot be written, a name or text is not UTF-8, a name is "__metadata__",
+/// the metadata has "data_hash", a tensor's bytes do not fit its shape, or the header becomes too long.
+inline void write_safetensors(const std::filesystem::path& path, const TensorFile& file) {
+    const std::string head = detail::file_head(file, file_text(path));
     write_file(path, [&](std::ostream& stream) {
-        const std::uint64_t length = head.size();
-        stream.write(reinterpret_cast<const char*>(&length), 8);
         stream.write(head.data(), std::streamsize(head.size()));
-        for (const auto& [name, tensor] : order)
-            stream.write(reinterpret_cast<const char*>(tensor->bytes.data()),
-                         std::streamsize(tensor->bytes.size()));
+        detail::write_data(stream, file);
     });
 }
 
