@@ -3,18 +3,22 @@
 #include "model.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "arrays.hpp"
+#include "input.hpp"
 #include "spaces.hpp"
 #include "values.hpp"
 
 #include "ism/dataset/coco.hpp"
 #include "ism/dataset/to_results.hpp"
 #include "ism/detect/detection.hpp"
+#include "ism/model_file/model_bytes.hpp"
 #include "ism/model_file/model_file.hpp"
+#include "ism/show/overlay.hpp"
 
 namespace ism_python {
 
@@ -54,12 +58,21 @@ Input input_of(const Search& search) {
 }
 
 /// What is found; needs no Python.
-ism::Detections find(const ism::Model& model, const Search& search, const Input& input) {
+/// @param explain  also what templates saw
+ism::Detections find(const ism::Model& model, const Search& search, const Input& input,
+                     bool explain = false) {
     const ism::Frame frame = to_frame(input.arrays, input.camera);
     const std::string space = space_of(search, model, frame);
     ism::ThreadPool pool(search.threads);
     return program::Matcher(space == program::metric_space ? model.rgbd.front() : model, pool)
-        .find(frame, {.space = space, .min_score = search.min_score, .turns = search.turns});
+        .find(frame,
+              {.space = space, .min_score = search.min_score, .turns = search.turns, .explain = explain});
+}
+
+py::array to_array(const ism::RgbImage& image) {
+    py::array_t<std::uint8_t> array({image.height(), image.width(), 3});
+    std::memcpy(array.mutable_data(), image.pixels().data(), image.pixels().size_bytes());
+    return array;
 }
 
 }  // namespace
@@ -77,6 +90,28 @@ PythonModel PythonModel::load(const std::filesystem::path& path) {
 void PythonModel::save(const std::filesystem::path& path) const {
     const py::gil_scoped_release released;
     ism::save_model(path, model);
+}
+
+py::bytes PythonModel::to_bytes() const {
+    std::string bytes;
+    {
+        const py::gil_scoped_release released;
+        bytes = ism::model_to_bytes(model);
+    }
+    return bytes;
+}
+
+PythonModel PythonModel::from_bytes(const py::bytes& bytes) {
+    const std::string held = bytes;
+    const py::gil_scoped_release released;
+    return {ism::model_from_bytes(held)};
+}
+
+std::string PythonModel::text() const {
+    return ism::join_text("<ism.Model of ", program::list_text(model.shapes.class_names), ": ",
+                          model.shapes.objects.size(), " objects, ", model.words(), " words",
+                          model.templates.empty() ? "" : ", templates", model.rgbd.empty() ? "" : ", depth",
+                          ">");
 }
 
 py::list PythonModel::categories() const {
@@ -151,6 +186,40 @@ py::object PythonModel::detect(const Search& search, std::int64_t image_id) cons
     Json list = Json::array();
     for (const ism::Result& result : results) list.push_back(ism::detail::result_to_json(result));
     return to_python(list);
+}
+
+py::array PythonModel::draw(const Search& search) const {
+    const Input input = input_of(search);
+    ism::RgbImage drawn;
+    {
+        const py::gil_scoped_release released;
+        const ism::Font font = ism::system_font(model.shapes.class_names);
+        drawn = ism::draw_detections(to_rgb(input.arrays), find(model, search, input),
+                                     model.shapes.class_names, {.font = &font});
+    }
+    return to_array(drawn);
+}
+
+py::array PythonModel::explain(const Search& search, std::int64_t which) const {
+    const Input input = input_of(search);
+    ism::RgbImage drawn;
+    {
+        const py::gil_scoped_release released;
+        const ism::Font font = ism::system_font(model.shapes.class_names);
+        ism::Detections found = find(model, search, input, true);
+        const ism::Box picture{0, 0, double(input.arrays.picture.pixels.width),
+                               double(input.arrays.picture.pixels.height)};
+        std::erase_if(found.objects, [&](const ism::Detection& one) {  // as detect() does
+            return !(ism::intersection(one.box, picture).area() > 0);
+        });
+        const auto count = std::int64_t(found.objects.size());
+        ism::expect(count > 0, "which", "an object to be found", "none");
+        ism::expect(which >= 0 && which < count, "which",
+                    ism::lazy_text("one of the objects found, 0 ... ", count - 1), which);
+        drawn = ism::draw_explanation(to_rgb(input.arrays), found, std::size_t(which),
+                                      model.shapes.class_names, {.font = &font});
+    }
+    return to_array(drawn);
 }
 
 }  // namespace ism_python

@@ -33,12 +33,19 @@ public:
 
     [[nodiscard]] static PythonModel load(const std::filesystem::path& path);
     void save(const std::filesystem::path& path) const;
+    /// The bytes of the file, and back: for pickle.
+    [[nodiscard]] py::bytes to_bytes() const;
+    [[nodiscard]] static PythonModel from_bytes(const py::bytes& bytes);
+    [[nodiscard]] std::string text() const;
 
     [[nodiscard]] py::list categories() const;
     void set_categories(const py::object& dicts);
     [[nodiscard]] py::dict info() const;
 
     [[nodiscard]] py::object detect(const Search& search, std::int64_t image_id) const;
+    /// The picture of what is found, and that of why one of it was; as arrays.
+    [[nodiscard]] py::array draw(const Search& search) const;
+    [[nodiscard]] py::array explain(const Search& search, std::int64_t which) const;
 };
 
 /// @throws ism::Error for another order than rgb and bgr.

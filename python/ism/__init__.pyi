@@ -35,6 +35,33 @@ class Model:
         order: str = "rgb",
         threads: int = 0,
     ) -> List[Result]: ...
+    def draw(
+        self,
+        image: Array,
+        depth: Optional[Array] = None,
+        camera: Optional[Mapping[str, float]] = None,
+        *,
+        space: str = "auto",
+        min_score: Optional[float] = None,
+        turns: int = 1,
+        depth_scale: Optional[float] = None,
+        order: str = "rgb",
+        threads: int = 0,
+    ) -> NDArray[np.uint8]: ...
+    def explain(
+        self,
+        image: Array,
+        depth: Optional[Array] = None,
+        camera: Optional[Mapping[str, float]] = None,
+        *,
+        which: int = 0,  # of what detect() tells
+        space: str = "auto",
+        min_score: Optional[float] = None,
+        turns: int = 1,
+        depth_scale: Optional[float] = None,
+        order: str = "rgb",
+        threads: int = 0,
+    ) -> NDArray[np.uint8]: ...
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None: ...
     def info(self) -> Dict[str, Any]: ...
 

@@ -1,10 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
 import ast
+import copy
 import inspect
 import json
+import multiprocessing
 import os
 import pathlib
+import pickle
 import signal
 import struct
 import subprocess
@@ -13,6 +16,7 @@ import time
 import types
 import typing
 import warnings
+import zlib
 
 import numpy as np
 import pytest
@@ -241,6 +245,10 @@ def test_templates_and_depth():
         learnt.detect(picture(50, 10), space="metric")
     with pytest.raises(ValueError, match="depth image size: expected 128x128, got 10x10"):
         learnt.detect(picture(50, 10), np.ones((10, 10)), camera)
+    again = pickle.loads(pickle.dumps(learnt))
+    assert again.info() == info and again.detect(picture(50, 10), depth, camera, min_score=0) == found
+    assert (again.draw(picture(50, 10), depth, camera) == learnt.draw(picture(50, 10), units, camera)).all()
+    assert (learnt.explain(picture(50, 10), depth, camera).shape[2], learnt.draw(picture(50, 10)).ndim) == (3, 3)
     for kind in ("int16", "int32", ">u2", "uint32", "int64"):
         again = learnt.detect(picture(50, 10), units.astype(kind), camera, min_score=0)
         assert again == learnt.detect(picture(50, 10), units, camera, min_score=0), kind
@@ -381,6 +389,77 @@ def test_other_threads_run_meanwhile(model):
     stop.set()
     other.join()
     assert len(gaps) > 10 and max(gaps) < 0.7 * took
+
+
+def test_models_are_copied_and_pickled(model, tmp_path):
+    usual = model.detect(picture(50, 10))
+    model.save(tmp_path / "model.safetensors")
+    assert pickle.dumps(model).count((tmp_path / "model.safetensors").read_bytes()) == 1
+    for again in (pickle.loads(pickle.dumps(model)), copy.copy(model), copy.deepcopy(model)):
+        assert again is not model and again.info() == model.info()
+        assert again.categories == model.categories and again.detect(picture(50, 10)) == usual
+    again.categories = [{"id": 8, "name": "carpet"}]
+    assert model.categories == [{"id": 30, "name": "carpet"}]
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        assert pool.apply(model.detect, (picture(50, 10),)) == usual
+    with pytest.raises(ism.Error, match="model: expected a safetensors file"):
+        ism.Model.__new__(ism.Model).__setstate__(b"nothing")
+
+
+def read_png(path):
+    data, chunks, at = path.read_bytes(), {}, 8
+    while at < len(data):
+        (size,), kind = struct.unpack(">I", data[at : at + 4]), data[at + 4 : at + 8]
+        chunks[kind] = chunks.get(kind, b"") + data[at + 8 : at + 8 + size]
+        at += 12 + size
+    width, height = struct.unpack(">II", chunks[b"IHDR"][:8])
+    packed, above, rows = zlib.decompress(chunks[b"IDAT"]), bytes(3 * width + 3), []
+    for y in range(height):
+        kind, *deltas = packed[y * (1 + 3 * width) : (y + 1) * (1 + 3 * width)]
+        row = bytearray(3)  # a pixel of 0 before the first, here as above
+        for i, delta in enumerate(deltas):
+            a, b, c = row[i], above[i + 3], above[i]
+            near = abs(b - c), abs(a - c), abs(a + b - 2 * c)
+            paeth = a if near[0] <= near[1] and near[0] <= near[2] else b if near[1] <= near[2] else c
+            row.append((delta + (0, a, b, (a + b) // 2, paeth)[kind]) % 256)
+        above = row
+        rows.append(row[3:])
+    return np.frombuffer(b"".join(rows), dtype=np.uint8).reshape(height, width, 3)
+
+
+@needs_program
+@pytest.mark.parametrize("templates", [False, True])
+def test_draws_what_the_program_draws(images, tmp_path, templates):
+    learnt = ism.train(make_coco(), images, templates=templates)
+    learnt.save(tmp_path / "model.safetensors")
+    image = picture(50, 10)
+    write_bmp(tmp_path / "photo.bmp", image)
+    run_program(tmp_path, "detect", "--model", "model.safetensors", "photo.bmp", "--overlay", "why")
+    drawn = learnt.draw(image)
+    assert drawn.dtype == np.uint8 and (drawn == read_png(tmp_path / "why" / "photo.png")).all()
+    row = learnt.explain(image)
+    assert (row == read_png(tmp_path / "why" / "photo_1.png")).all()
+    assert (row == learnt.explain(image[:, :, ::-1], which=0, order="bgr", threads=1)).all()
+    assert learnt.draw(np.full((SIDE, SIDE), 90, dtype=np.uint8)).shape == drawn.shape
+    count = len(learnt.detect(image))
+    for which in (-1, count):
+        with pytest.raises(ism.Error, match=f"which: expected one of .*, 0 ... {count - 1}, got {which}"):
+            learnt.explain(image, which=which)
+    with pytest.raises(ism.Error, match="which: expected an object to be found, got none"):
+        learnt.explain(np.full((SIDE, SIDE), 90, dtype=np.uint8))
+
+
+def test_a_model_tells_what_it_is(model):
+    assert repr(model) == f"<ism.Model of carpet: 3 objects, {model.info()['words']} words>"
+    assert ism.Model.__module__ == "ism"
+    told = [ism.train, ism.load, ism.encode_mask, ism.decode_mask, ism.Model.detect, ism.Model.draw, ism.Model.explain]
+    for function in told:
+        signature, _, text = function.__doc__.partition("\n")
+        arguments = [part.split(":")[0].strip() for part in split_arguments(signature)]
+        for name in arguments:
+            same = function.__name__ in ("draw", "explain") and name != "which"  # as those of detect
+            assert same or name in ("self", "*", "path") or f"\n{name}  " in text or f"\n{name} " in text, name
+    assert "least `probability`" in ism.Model.detect.__doc__
 
 
 def many_images(count=24):
