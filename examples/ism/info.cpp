@@ -53,6 +53,7 @@ void run_info(const InfoCommand& command) {
     std::printf("probabilities   %s\n", model.calibration.empty()     ? "no"
                                         : learnt_probabilities(model) ? "yes"
                                                                       : "not learnt, for want of objects");
+    std::printf("growable        %s\n", ism::has_training_features(path) ? "yes, by --add-to" : "no");
     std::printf("reference size  %g px\n", ism::reference_size_px);
     for (const ism::Channel& channel : model.channels) {
         const ism::FeatureSettings& settings = channel.features;

@@ -15,6 +15,7 @@
 #include "ism/core/number_text.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/coco_write.hpp"
+#include "ism/dataset/image_files.hpp"
 #include "ism/io/paths.hpp"
 #include "ism/io/write_file.hpp"
 

@@ -12,6 +12,7 @@
 #include "pictures.hpp"
 #include "progress.hpp"
 
+#include "ism/dataset/camera_doubt.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/model_file/model_file.hpp"
 #include "ism/train/append_training_features.hpp"
@@ -126,13 +127,16 @@ void run_train(const TrainCommand& command) {
         use_shown_classes(dataset);
     Doubts doubts;
     const std::size_t skipped =
-        check_images(dataset, options.threads, command.skip_bad, [&](const ism::DatasetImage& image) {
+        check_images(dataset, options.threads, command.skip_bad, [&](ism::DatasetImage& image) {
             ism::TrainingImage training = ism::read_training_image(image, read_picture);
             training.name = ism::file_text(image.file);
             ism::check(training, dataset.class_names.size());
             if (!image.depth_file.empty())
                 doubts.add(image.depth_file,
                            ism::depth_scale_doubt(training.frame.depth_m, image.depth_scale));
+            if (training.frame.depth_m.empty()) image.depth_file.clear();  // without a reading
+            if (image.camera && !image.depth_file.empty())
+                doubts.add(image.file, ism::camera_doubt(*image.camera, image.width, image.height));
         });
     doubts.tell();
 
@@ -178,8 +182,9 @@ void run_train(const TrainCommand& command) {
     if (cut_out > 0) std::printf("masks        of %zu objects from their boxes\n", cut_out);
     std::printf("features     %zu", summary.features_used);
     if (summary.features_used < summary.features_found)
-        std::printf(" of %zu, the strongest of each object (--max-features %zu)", summary.features_found,
-                    options.features.max_features);
+        std::printf(" of %zu, the strongest of each object", summary.features_found);
+    if (summary.features_used < summary.features_found && !known)
+        std::printf(" (--max-features %zu)", options.features.max_features);
     std::printf("\nwords        %zu\n", model.words());
     std::printf("occurrences  %zu\n", model.shapes.occurrences.values().size());
     std::printf("upsampling   %.3g\n", settings.options.upsampling);

@@ -39,5 +39,5 @@ class Result(_ResultBase, total=False):
     probability: float  # that it is an object of this class; min_score is compared with it
     depth_m: float  # along the optical axis
     position_m: List[float]  # x right, y down, z forward of the camera
-    position_error_m: float  # standard error
+    position_error_m: float  # how far votes scatter
     angle_rad: float  # of what is turned, from x towards y

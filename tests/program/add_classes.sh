@@ -29,6 +29,8 @@ says "objects      18" more.txt
 # A model without training features is smaller, and says what it lacks.
 "$ism" train --data toys/train.json -o small --class car --class mug --detector dog --no-templates >/dev/null
 (($(wc -c <small) < $(wc -c <two))) || fail "--growable keeps nothing"
+"$ism" info two | grep -qx "growable        yes, by --add-to" || fail "info two: $("$ism" info two)"
+"$ism" info small | grep -qx "growable        no" || fail "info small: $("$ism" info small)"
 refused_in_a_line "train with --growable" "$ism" train --data toys/train.json -o out --add-to small --class duck
 
 # Words of each class stay so.

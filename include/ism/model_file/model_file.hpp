@@ -255,6 +255,12 @@ template <Detector D, Descriptor Desc>
     return at_place(file_text(path), [&] { return TypedModel<D, Desc>(std::move(model)); });
 }
 
+/// @brief Whether save_model() kept training features beside a model, so that more can be learnt.
+/// @throws FileError where the file cannot be read or is no model.
+[[nodiscard]] inline bool has_training_features(const std::filesystem::path& path) {
+    return detail::open_model(path).tensors.contains("training_views");
+}
+
 /// @brief Reads the training features that save_model() kept beside a model: what learn() made it of, but
 /// descriptors of whole images rounded to 8 bits a number.
 /// @throws FileError as load_model() does, and where none were kept.
