@@ -114,9 +114,9 @@ void add_train(CLI::App& parent, program::TrainCommand& command) {
     CLI::Option* add_to =
         app.add_option("--add-to", command.add_to,
                        "model to teach more classes, or more examples of its classes; it was "
-                       "trained with --growable, and its features and similarity stay");
-    for (const char* fixed : {"--detector", "--descriptor", "--orientation", "--codebook", "--similarity",
-                              "--min-information-gain", "--max-words", "--best-words"})
+                       "trained with --growable, and its features and similarity stay; how many "
+                       "words are kept is told anew");
+    for (const char* fixed : {"--detector", "--descriptor", "--orientation", "--codebook", "--similarity"})
         add_to->excludes(app.get_option(fixed));
     CLI::Option* growable =
         app.add_flag("--growable", command.growable,

@@ -26,6 +26,9 @@ says "mean " figures.txt
 says "classes      car, mug" more.txt
 says "objects      18" more.txt
 
+"$ism" train --data toys/train.json -o few --add-to two --class duck --max-words 40 >few.txt
+says "words        40" few.txt
+
 # A model without training features is smaller, and says what it lacks.
 "$ism" train --data toys/train.json -o small --class car --class mug --detector dog --no-templates >/dev/null
 (($(wc -c <small) < $(wc -c <two))) || fail "--growable keeps nothing"
@@ -42,6 +45,6 @@ says "exemplars       18" own-info.txt
 
 # What contradicts the model.
 refused_in_a_line "expected --detector or --add-to, got both" "$ism" train --data toys/train.json -o out --add-to two --detector dog
-refused_in_a_line "expected --max-words or --add-to, got both" "$ism" train --data toys/train.json -o out --add-to two --max-words 9
+refused_in_a_line "expected --similarity or --add-to, got both" "$ism" train --data toys/train.json -o out --add-to two --similarity .9
 refused_in_a_line "another file than an input" "$ism" train --data toys/train.json -o two --add-to two
 refused_in_a_line "none-there" "$ism" train --data toys/train.json -o out --add-to none-there
