@@ -98,7 +98,7 @@ TEST_CASE("messages that contradict themselves are refused") {
     CHECK_THROWS_WITH(ism::to_frame(ImageMessage{0, 0, "mono8", 0, 0, {}}),
                       Catch::StartsWith("image message: size: expected") && Catch::EndsWith("got 0x0"));
     CHECK_THROWS_WITH(ism::to_camera(InfoMessage2{}),
-                      "camera message: expected of a camera that is calibrated, got a matrix K of zeros");
+                      "camera message: expected a calibrated camera, got a matrix K of zeros");
     CHECK_THROWS_WITH(
         ism::to_frame(picture("mono8", 2, {1, 2}), picture("mono8", 2, {1, 2}), InfoMessage1{intrinsics}),
         Catch::Contains("one channel of 16 bits or floats"));

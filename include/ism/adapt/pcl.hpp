@@ -80,7 +80,7 @@ void for_each_reading(const pcl::PointCloud<P>& cloud, const Look& look) {
 
 /// @brief The camera that an organised cloud was seen by: pixel x is fx·X/Z + cx, by least squares over its
 /// points.
-/// @throws Error where the cloud is not organised, has points in less than two rows and columns, or more than
+/// @throws Error where the cloud is not organised, has points in fewer than two rows or columns, or more than
 /// a hundredth of its points lie off the rays of a camera (x right, y down, z forward).
 template <ColoredPoint P>
 [[nodiscard]] Camera camera_of(const pcl::PointCloud<P>& cloud) {

@@ -180,7 +180,8 @@ inline constexpr float full_sample = std::is_same_v<T, std::uint8_t>    ? 255.0f
 
 namespace detail {
 
-/// Floats of 0 ... 255 look like bright pictures, and dark ones of them like almost white ones.
+/// Refuses floats of 0 … 255, as conversions of other libraries leave them: nearly all of them would be
+/// white.
 inline void check_unit_floats(const RawPixels& picture) {
     if (picture.format.sample != Sample::float32) return;
     float least = 0, most = 1;

@@ -108,7 +108,7 @@ template <RosCameraInfo M>
         return camera_of_matrix({p[0], p[1], p[2], p[4], p[5], p[6], p[8], p[9], p[10]});
     };
     const auto raw = [](const auto& k) {
-        expect(k[0] != 0, "camera message", "of a camera that is calibrated", "a matrix K of zeros");
+        expect(k[0] != 0, "camera message", "a calibrated camera", "a matrix K of zeros");
         return camera_of_matrix({k[0], k[1], k[2], k[3], k[4], k[5], k[6], k[7], k[8]});
     };
     if constexpr (requires { message.p[0]; })

@@ -72,9 +72,8 @@ namespace detail {
 /// resolution than the guide it is applied to (He and Sun 2015).
 /// @param guide, image  of one size
 /// @param radius        of the windows, pixels
-/// @param epsilon       variance of the guide below which a window counts as flat; below 1e-6 slopes are
-/// errors of
-///                      rounding, of guides 0 … 1
+/// @param epsilon       variance of the guide below which a window counts as flat; of guides 0 … 1 at least
+///                      1e-6, since less is within errors of rounding
 /// @throws Error for images of different sizes, a radius below 0, or an epsilon that is not above 0.
 [[nodiscard]] inline GuidedFit guided_fit(const ColorPlanes& guide, ImageView<const float> image, int radius,
                                           double epsilon) {

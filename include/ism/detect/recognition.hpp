@@ -68,7 +68,7 @@ template <Segmenter S>
         return probability;
 }
 
-/// What own policies give is looked at once, where it is clear whose it is.
+/// What policies give, which may be anybody's, is looked at where it is clear whose it is.
 inline void check_score(double score, const char* policy) {
     expect(std::isfinite(score) && score >= 0, lazy_text(policy, ": score"), "a number of 0 or more", score);
 }
