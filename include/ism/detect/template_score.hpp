@@ -36,7 +36,7 @@ namespace ism {
 /// template's margin with what the other cues are worth, see CueWeights; the support are the votes of the
 /// class that agree with the box that was found.
 struct TemplateScore {
-    std::size_t max_classes = asked_classes;  ///< of a hypothesis, by vote weight, as in training
+    std::size_t max_classes = asked_classes;  ///< asked about a hypothesis, of most vote weight there
     RivalOptions rivals = {};  ///< see yield_to_rivals(); where nothing is calibrated parts are left out
     bool explain = false;      ///< also tell which cells of a template speak for and against
 
