@@ -204,6 +204,10 @@ TEST_CASE("what one picture shows by later labels is no background of it before"
     REQUIRE(joined.views.size() == 2);
     CHECK(joined.views[0].ignored == std::vector<ism::Box>{right});
     CHECK(joined.views[1].ignored == std::vector<ism::Box>{left});
+    const ism::Box below{0, 10, 8, 8};
+    const auto thrice = ism::append(joined, with_label(below, 1));
+    CHECK(thrice.views[1].ignored == std::vector<ism::Box>{left, below});
+    CHECK(thrice.views[2].ignored == std::vector<ism::Box>{left, right});
     const auto others = ism::append(with_label(left, 1), with_label(right, 2));
     CHECK(others.views[0].ignored.empty());
     CHECK(others.views[1].ignored.empty());

@@ -41,23 +41,17 @@ namespace detail {
     return ids;
 }
 
-/// A picture that is in both shows what either of its views tells: none of it is background of the other.
-/// @return in how many pictures of `more` that is so
-inline std::size_t share_labels(std::vector<TrainingView>& all, std::vector<TrainingView>& more) {
-    std::size_t known = 0;
+/// A picture that is in both shows what each of its views tells: none of it is background of another.
+inline void share_labels(std::vector<TrainingView>& all, std::vector<TrainingView>& more) {
     for (TrainingView& later : more) {
-        const auto same = [&](const TrainingView& view) {
-            return !view.pixels.empty() && view.pixels == later.pixels;
-        };
-        const auto first = std::find_if(all.begin(), all.end(), same);
-        if (first == all.end()) continue;
-        ++known;
-        const std::size_t own = later.ignored.size();
-        for (const ObjectLabel& label : first->labels) later.ignored.push_back(label.box);
-        for (std::size_t i = 0; i < own; ++i) first->ignored.push_back(later.ignored[i]);
-        for (const ObjectLabel& label : later.labels) first->ignored.push_back(label.box);
+        const std::vector<Box> own = later.ignored;
+        for (TrainingView& view : all) {
+            if (view.pixels.empty() || !(view.pixels == later.pixels)) continue;
+            for (const ObjectLabel& label : view.labels) later.ignored.push_back(label.box);
+            for (const ObjectLabel& label : later.labels) view.ignored.push_back(label.box);
+            view.ignored.insert(view.ignored.end(), own.begin(), own.end());
+        }
     }
-    return known;
 }
 
 }  // namespace detail
