@@ -8,9 +8,12 @@
 
 #include "support/catch.hpp"
 
+#include "ism/core/thread_pool.hpp"
 #include "ism/detect/box_colors.hpp"
+#include "ism/detect/box_cue_reader.hpp"
 #include "ism/detect/voted_boxes.hpp"
-#include "ism/model/model.hpp"
+#include "ism/hog/describe_cells.hpp"
+#include "ism/hog/hog_pyramid.hpp"
 #include "ism/train/mean_figures.hpp"
 
 namespace {
@@ -170,11 +173,40 @@ TEST_CASE("a box is small where it is so in pixels and beside its picture") {
     CHECK(ism::log_size({7, 9, 15, 10}, 60, 40, typical) == Approx(std::log(0.25)));
     CHECK(ism::log_size({7, 9, 15, 10}, 60, 20, typical) == Approx(std::log(0.5)));
     CHECK(ism::log_size({0, 0, 60, 40}, 60, 40, typical) == 0);
+}
 
-    ism::Model model;
-    CHECK(model.log_size_of(0, {7, 9, 15, 10}, 60, 40) == 0);
-    model.typical_sizes = {typical};
-    CHECK(model.log_size_of(0, {7, 9, 15, 10}, 60, 40) == Approx(std::log(0.25)));
+TEST_CASE("what a judge of boxes is not given has nothing to say") {
+    const ism::Box box{60, 40, 60, 50};
+    const ism::RgbImage picture = box_picture(box, {200, 40, 30}, {30, 60, 200});
+    ism::ThreadPool pool(1);
+    ism::HogPyramid pyramid;
+    pyramid.assign(picture, 0, pool);
+    const ism::VotedBoxes voted;
+    const ism::WordMap words;
+    const ism::JudgedImage image{pyramid, picture, voted, words};
+    ism::CellScratch scratch;
+
+    const ism::BoxCues none = ism::BoxCueReader({}, image).cues(0, {box, 0.7, false}, scratch);
+    CHECK(none.margin == 0.7);
+    CHECK(none.word_logit == 0);
+    CHECK(none.patch_margin == 0);
+    CHECK(none.vote_weight == 0);
+    CHECK(none.vote_share == 0.5);
+    CHECK(none.color_overlap == 1);
+    CHECK(none.color_odds == 0);
+    CHECK(none.log_size == 0);
+
+    const std::vector<ism::ClassFigure> figures{ism::ClassFigure(ism::figure_numbers, 1.0f)};
+    const std::vector<ism::FigureColors> colors{ism::FigureColors(ism::figure_color_bins, 2.0f)};
+    const std::vector<ism::TypicalSize> sizes{{.log_px = std::log(4 * box.area()), .log_part = 0}};
+    const ism::BoxCueReader reader({.figures = figures, .colors = colors, .sizes = sizes}, image);
+    const ism::BoxCues known = reader.cues(0, {box, 0.7, false}, scratch);
+    CHECK(known.color_overlap == Approx(overlap(picture, box, figures[0])));
+    CHECK(known.color_odds == Approx(2 * (1 - 0.5)));
+    CHECK(known.log_size == Approx(std::log(0.25)));
+    const ism::BoxCues other = reader.cues(1, {box, 0.7, false}, scratch);  // a class that is not given
+    CHECK(other.color_overlap == 1);
+    CHECK(other.log_size == 0);
 }
 
 TEST_CASE("cues are worth margins of a template") {

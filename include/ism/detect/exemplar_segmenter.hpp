@@ -19,6 +19,7 @@
 #include "ism/core/resize_area.hpp"
 #include "ism/detect/exemplar_prior.hpp"
 #include "ism/detect/mask_evidence.hpp"
+#include "ism/detect/sampled_region.hpp"
 #include "ism/detect/scene.hpp"
 #include "ism/detect/segment.hpp"
 #include "ism/model/figure_color_odds.hpp"
@@ -112,82 +113,29 @@ inline Segmentation ExemplarSegmenter::segment(const Detection& hypothesis, cons
     return part;
 }
 
-inline Segmentation ExemplarSegmenter::cut_out(std::span<const std::uint32_t> exemplar_indices,
-                                               std::span<const float> colors, const Box& box,
-                                               const RgbImage& picture, const Model& model) const {
-    const BoxRegion region(box, margin, picture.width(), picture.height());
-    const ExemplarPrior lenders(model, exemplar_indices,
-                                describe_exemplar(picture, box, compared_boxes(box, exemplars)), exemplars);
+namespace detail {
 
-    // The region in the size that colours are compared at.
-    const double zoom = std::min(1.0, double(max_side_px) / std::max(region.width, region.height));
-    const int width = std::max(2, int(std::lround(region.width * zoom))),
-              height = std::max(2, int(std::lround(region.height * zoom)));
-    const std::vector<float> rgb = region_colors(picture, region, width, height);
-    const ColorBins bins(rgb);
-    const std::vector<float> class_odds = figure_color_odds(colors, rgb);
-
-    // Pixels of it as samples of the prior, and back.
-    constexpr double sample = 1.0 / ExemplarPrior::samples;
-    const double cell_width = box.width / exemplar_cells, cell_height = box.height / exemplar_cells;
-    const double sx = double(width) / region.width, sy = double(height) / region.height;
-    const auto log_odds = [&](const GrayImage& prior) {
-        std::vector<float> odds;
-        odds.reserve(std::size_t(width) * std::size_t(height));
-        const float least = float(min_prior);
-        for (int y = 0; y < height; ++y) {
-            const double py = region.y + (y + 0.5) / sy;
-            const float v = float(((py - box.y) / cell_height + ExemplarPrior::margin) / sample - 0.5);
-            for (int x = 0; x < width; ++x) {
-                const double px = region.x + (x + 0.5) / sx;
-                const float u = float(((px - box.x) / cell_width + ExemplarPrior::margin) / sample - 0.5);
-                const bool inside = u > -0.5f && v > -0.5f && u < ExemplarPrior::side - 0.5f &&
-                                    v < ExemplarPrior::side - 0.5f;
-                const float p = std::clamp(inside ? sample_bilinear(prior, u, v) : 0.0f, least, 1 - least);
-                odds.push_back(std::log(p / (1 - p)) + float(class_colors) * class_odds[odds.size()]);
-            }
-        }
-        return odds;
-    };
-    const auto as_samples = [&](const GrayImage& figure) {
-        GrayImage samples(ExemplarPrior::side, ExemplarPrior::side,
-                          0.5f);  // outside the picture nothing is known
-        for (int y = 0; y < samples.height(); ++y) {
-            const double py = box.y + ((y + 0.5) * sample - ExemplarPrior::margin) * cell_height - region.y;
-            for (int x = 0; x < samples.width(); ++x) {
-                const double px =
-                    box.x + ((x + 0.5) * sample - ExemplarPrior::margin) * cell_width - region.x;
-                if (px >= 0 && py >= 0 && px <= region.width && py <= region.height)
-                    samples(x, y) = sample_bilinear(figure, float(px * sx - 0.5), float(py * sy - 0.5));
-            }
-        }
-        return samples;
-    };
-
-    GrayImage figure(width, height);
-    std::vector<float> odds = log_odds(lenders.prior());
-    const auto probability = [](float odd) { return 1 / (1 + std::exp(-odd)); };
-    std::transform(odds.begin(), odds.end(), figure.pixels().begin(), probability);
-    for (int round = 0; round < color_rounds + agreement_rounds; ++round) {
-        if (round >= color_rounds) odds = log_odds(lenders.prior(as_samples(figure)));
-        const std::vector<float> told = bins.log_ratio(figure.pixels(), float(max_log_ratio));
-        for (std::size_t i = 0; i < told.size(); ++i) figure.pixels()[i] = probability(odds[i] + told[i]);
-    }
-
+/// p(figure) brought to the edges of a picture, in its own resolution: a guided filter tells how it follows
+/// the colours around each pixel.
+/// @param rgb     colours of the region, three numbers a pixel, 0 … 255
+/// @param figure  of the region, as large
+[[nodiscard]] inline Segmentation guided_segmentation(const RgbImage& picture, const BoxRegion& region,
+                                                      std::span<const float> rgb, const GrayImage& figure,
+                                                      int radius, double epsilon) {
     ColorPlanes guide;
     for (std::size_t k = 0; k < guide.size(); ++k) {
-        guide[k] = GrayImage(width, height);
+        guide[k] = GrayImage(figure.width(), figure.height());
         for (std::size_t i = 0; i < figure.pixels().size(); ++i) guide[k].pixels()[i] = rgb[3 * i + k] / 255;
     }
-    const int radius = std::max(1, int(std::lround(filter_radius * std::sqrt(box.area()) * zoom)));
-    const GuidedFit fit = guided_fit(guide, figure, radius, filter_epsilon);
+    const GuidedFit fit = guided_fit(guide, figure, radius, epsilon);
     std::vector<float> planes;  // of each pixel: what a red, a green and a blue of 1 add, and the rest
     planes.reserve(4 * figure.pixels().size());
     for (std::size_t i = 0; i < figure.pixels().size(); ++i) {
         for (const GrayImage& slope : fit.slope) planes.push_back(slope.pixels()[i]);
         planes.push_back(fit.offset.pixels()[i]);
     }
-    ResizedRows<4> rows({planes, 4 * std::size_t(width)}, width, height, region.width, region.height);
+    ResizedRows<4> rows({planes, 4 * std::size_t(figure.width())}, figure.width(), figure.height(),
+                        region.width, region.height);
     std::vector<float> row(4 * std::size_t(region.width));
 
     Segmentation result{.x = region.x,
@@ -206,6 +154,45 @@ inline Segmentation ExemplarSegmenter::cut_out(std::span<const std::uint32_t> ex
             result.mask(x, y) = p > 0.5f;
         }
     }
+    return result;
+}
+
+}  // namespace detail
+
+inline Segmentation ExemplarSegmenter::cut_out(std::span<const std::uint32_t> exemplar_indices,
+                                               std::span<const float> colors, const Box& box,
+                                               const RgbImage& picture, const Model& model) const {
+    const ExemplarPrior lenders(model, exemplar_indices,
+                                describe_exemplar(picture, box, compared_boxes(box, exemplars)), exemplars);
+    const detail::SampledRegion sampled(box, margin, max_side_px, picture.width(), picture.height());
+    const std::vector<float> rgb = region_colors(picture, sampled.region, sampled.width, sampled.height);
+    const ColorBins bins(rgb);
+    const std::vector<float> class_odds = figure_color_odds(colors, rgb);
+    const auto log_odds = [&](const GrayImage& prior) {
+        const GrayImage at_pixels = sampled.to_pixels(prior);
+        std::vector<float> odds;
+        odds.reserve(class_odds.size());
+        const float least = float(min_prior);
+        for (const float shown : at_pixels.pixels()) {
+            const float p = std::clamp(shown, least, 1 - least);
+            odds.push_back(std::log(p / (1 - p)) + float(class_colors) * class_odds[odds.size()]);
+        }
+        return odds;
+    };
+
+    GrayImage figure(sampled.width, sampled.height);
+    std::vector<float> odds = log_odds(lenders.prior());
+    const auto probability = [](float odd) { return 1 / (1 + std::exp(-odd)); };
+    std::transform(odds.begin(), odds.end(), figure.pixels().begin(), probability);
+    for (int round = 0; round < color_rounds + agreement_rounds; ++round) {
+        if (round >= color_rounds) odds = log_odds(lenders.prior(sampled.to_samples(figure)));
+        const std::vector<float> told = bins.log_ratio(figure.pixels(), float(max_log_ratio));
+        for (std::size_t i = 0; i < told.size(); ++i) figure.pixels()[i] = probability(odds[i] + told[i]);
+    }
+
+    const int radius = std::max(1, int(std::lround(filter_radius * std::sqrt(box.area()) * sampled.zoom)));
+    Segmentation result =
+        detail::guided_segmentation(picture, sampled.region, rgb, figure, radius, filter_epsilon);
     result.mask = without_specks(std::move(result.mask), least_piece);
     return result;
 }

@@ -75,11 +75,6 @@ struct Model {
         if (class_index >= figure_colors.size()) return {};
         return figure_colors[class_index];
     }
-    /// @brief How small a box is for its class, see log_size(); 0 where nothing is known of its size.
-    [[nodiscard]] double log_size_of(std::size_t class_index, const Box& box, int width, int height) const {
-        if (class_index >= typical_sizes.size()) return 0;
-        return log_size(box, width, height, typical_sizes[class_index]);
-    }
     /// @brief How boxes of a class are placed; the usual way where it is not known.
     [[nodiscard]] Placing placing_of(std::size_t class_index) const {
         return class_index < placings.size() ? placings[class_index] : Placing{};

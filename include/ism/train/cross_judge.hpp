@@ -12,12 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "ism/core/color_bins.hpp"
 #include "ism/core/geometry.hpp"
 #include "ism/core/logistic.hpp"
 #include "ism/core/thread_pool.hpp"
-#include "ism/detect/box_colors.hpp"
-#include "ism/hog/fisher_vector.hpp"
+#include "ism/detect/box_cue_reader.hpp"
 #include "ism/hog/hog_pyramid.hpp"
 #include "ism/hog/propose_boxes.hpp"
 #include "ism/hog/search_box.hpp"
@@ -97,8 +95,12 @@ struct FoldJudges {
                                                          std::span<const TypicalSize> sizes,
                                                          const HogPyramid& pyramid, ThreadPool& pool) {
     std::vector<JudgedBox> judged;
-    const FisherEncoder encoder(judges.patches.mixture);
-    const LabTable to_lab;
+    const BoxCueReader reader({.words = judges.words.empty() ? nullptr : &judges.words,
+                               .patches = &judges.patches,
+                               .figures = figures,
+                               .colors = judges.colors,
+                               .sizes = sizes},
+                              {pyramid, image.color, image.voted, image.words});
     CellScratch scratch;
     for (std::uint32_t c = 0; c < scorers.size(); ++c) {
         if (!judges.patches.knows(c)) continue;  // the fold shows all there is of the class
@@ -113,17 +115,7 @@ struct FoldJudges {
             const bool right = best_iou(box.box, image.labels, c) >= 0.5;
             if (!right && (shows_another(box.box, image.labels, c) || is_ignored(box.box, image.ignored)))
                 continue;
-            const BoxColors colors = box_colors(image.color, box.box, figures[c], to_lab);
-            BoxCues cues{.margin = box.score,
-                         .patch_margin = judges.patches.margin(c, encoder.encode(pyramid, box.box, scratch)),
-                         .vote_weight = image.voted.weight(c, box.box),
-                         .vote_share = image.voted.share(c, box.box),
-                         .color_overlap = color_overlap(colors),
-                         .color_odds = color_odds(colors, judges.colors[c]),
-                         .log_size = log_size(box.box, image.color.width(), image.color.height(), sizes[c])};
-            if (!judges.words.empty())
-                cues.word_logit = judges.words.logit(c, image.words.histogram(box.box));
-            judged.push_back({image_index, c, box.box, cues, right});
+            judged.push_back({image_index, c, box.box, reader.cues(c, box, scratch), right});
         }
     }
     return judged;

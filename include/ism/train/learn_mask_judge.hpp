@@ -18,6 +18,7 @@
 #include "ism/core/logistic.hpp"
 #include "ism/core/progress.hpp"
 #include "ism/core/region_mask.hpp"
+#include "ism/core/solve_positive_definite.hpp"
 #include "ism/core/thread_pool.hpp"
 #include "ism/detect/hypotheses.hpp"
 #include "ism/detect/mask_candidates.hpp"
@@ -178,24 +179,9 @@ inline void fit_mask_weights(MaskJudge& judge, std::span<const MaskCues> cues,
                 for (std::size_t b = 0; b <= a; ++b) hessian[a][b] += weight * x[a] * x[b];
             }
         }
-        // Cholesky: hessian = L Lᵀ
-        for (std::size_t a = 0; a < n; ++a)
-            for (std::size_t b = 0; b <= a; ++b) {
-                double sum = hessian[a][b];
-                for (std::size_t k = 0; k < b; ++k) sum -= hessian[a][k] * hessian[b][k];
-                hessian[a][b] = a == b ? std::sqrt(std::max(sum, 1e-12)) : sum / hessian[b][b];
-            }
-        for (std::size_t a = 0; a < n; ++a) {
-            for (std::size_t k = 0; k < a; ++k) gradient[a] -= hessian[a][k] * gradient[k];
-            gradient[a] /= hessian[a][a];
-        }
+        const std::array<double, n> change = solve_positive_definite(hessian, gradient);
         double length = 0;
-        for (std::size_t a = n; a-- > 0;) {
-            for (std::size_t k = a + 1; k < n; ++k) gradient[a] -= hessian[k][a] * gradient[k];
-            gradient[a] /= hessian[a][a];
-            w[a] -= gradient[a];
-            length += gradient[a] * gradient[a];
-        }
+        for (std::size_t k = 0; k < n; ++k) w[k] -= change[k], length += change[k] * change[k];
         if (length < 1e-12) break;
     }
     for (std::size_t k = 0; k < mask_cue_count; ++k) judge.weights[k] = static_cast<float>(w[k]);

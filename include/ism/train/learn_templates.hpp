@@ -18,20 +18,11 @@
 #include "ism/detect/asked_proposals.hpp"
 #include "ism/detect/proposals.hpp"
 #include "ism/model/box_cues.hpp"
-#include "ism/model/figure_colors.hpp"
-#include "ism/train/balanced_folds.hpp"
 #include "ism/train/cross_judge.hpp"
 #include "ism/train/describe_object.hpp"
-#include "ism/train/fit_box_classifier.hpp"
-#include "ism/train/fit_box_templates.hpp"
-#include "ism/train/fit_calibration.hpp"
-#include "ism/train/fit_patch_classifier.hpp"
-#include "ism/train/fit_patch_mixture.hpp"
+#include "ism/train/fit_judges.hpp"
 #include "ism/train/learn_cut_outs.hpp"
-#include "ism/train/learn_figure_colors.hpp"
 #include "ism/train/mean_figures.hpp"
-#include "ism/train/pyramid_workers.hpp"
-#include "ism/train/training_boxes.hpp"
 #include "ism/train/training_features.hpp"
 
 namespace ism {
@@ -48,16 +39,6 @@ namespace detail {
         masks.push_back(known ? &object.mask : nullptr);
     }
     return masks;
-}
-
-/// The objects of a class in an image, as far as their masks are known.
-[[nodiscard]] inline std::vector<ColoredObject> colored_objects(const TemplateImage& image,
-                                                                std::size_t class_index) {
-    std::vector<ColoredObject> objects;
-    for (std::size_t i = 0; i < image.labels.size(); ++i)
-        if (image.labels[i].class_index == class_index && image.masks[i])
-            objects.push_back({image.color, image.labels[i].box, image.masks[i]});
-    return objects;
 }
 
 /// How large the objects of each class are.
@@ -137,110 +118,6 @@ namespace detail {
     return images;
 }
 
-/// What is fitted to pixels, and what it says of boxes on images that it has not seen.
-struct FittedJudges {
-    std::vector<BoxTemplate> templates = {};
-    PatchClassifier patches = {};
-    std::vector<FigureColors> colors = {};
-    std::vector<JudgedBox> judged = {};  ///< by judges that were fitted without the image's fold
-    ImageFolds folds = {};
-};
-
-/// Fits templates and what judges their boxes to all images, and side by side to all but each fold: in a few
-/// rounds over the images, in each of which the pyramid of an image serves all who have to see it.
-[[nodiscard]] inline FittedJudges fit_judges(std::span<const TemplateImage> images, const Model& model,
-                                             const TemplateOptions& options, unsigned threads,
-                                             const Progress& progress) {
-    // Judges of halves know too little: with two folds photographs without objects were told 1.2 times as
-    // often as with three. Four gain no more and take a tenth longer.
-    constexpr std::size_t folds = 3;
-    const std::size_t classes = model.shapes.class_names.size();
-    std::vector<std::vector<ObjectLabel>> labels;
-    for (const TemplateImage& image : images) labels.push_back(image.labels);
-    const std::vector<std::size_t> fold_of = balanced_folds(labels, classes, folds);
-    TemplateFitter fitter(images, fold_of, folds, classes, options);
-    const std::vector<TemplateFit>& fits = fitter.fits();
-    PyramidWorkers workers(threads);
-    const PatchMixture mixture = fit_patch_mixture(sampled_patches(images, workers));
-    const PatchDescriber describer(mixture, images, classes);
-
-    const BoxClassifierOptions word_options;
-    const std::size_t boxes_per_image =
-        std::max<std::size_t>(3, word_options.max_hypotheses / 2 / images.size());
-    std::vector<std::vector<TrainingBox>> words(images.size());
-    const auto words_without = [&](std::size_t f) {
-        std::vector<TrainingBox> boxes;
-        for (std::size_t i = 0; i < images.size(); ++i)
-            if (fitter.sees(fits[f], i)) append(boxes, words[i]);
-        return fit_box_classifier(boxes, model.words(), classes, word_options, workers.pool().size());
-    };
-    std::vector<PatchRows> objects(images.size());
-    std::vector<std::vector<PatchRows>> taken(fits.size(), std::vector<PatchRows>(images.size()));
-    const auto patches_without = [&](std::size_t f) {
-        std::vector<const PatchRows*> rows;
-        for (std::size_t i = 0; i < images.size(); ++i)
-            if (fitter.sees(fits[f], i)) rows.push_back(&objects[i]), rows.push_back(&taken[f][i]);
-        return fit_patch_classifier(rows, mixture, classes, workers.pool());
-    };
-    std::vector<FoldJudges> judges(fits.size(), {.colors = std::vector<FigureColors>(classes)});
-    workers.pool().for_each(fits.size() * classes, [&](std::size_t i, unsigned) {
-        const TemplateFit& fit = fits[i / classes];
-        const std::size_t c = i % classes;
-        std::vector<ColoredObject> seen;
-        for (std::size_t k = 0; k < images.size(); ++k)
-            if (fitter.sees(fit, k)) append(seen, colored_objects(images[k], c));
-        judges[i / classes].colors[c] = learn_figure_colors(seen);
-    });
-    std::vector<std::vector<JudgedBox>> judged(images.size());
-
-    const int rounds = options.mining_rounds, fold_rounds = std::min(rounds, 1);
-    for (int round = 0; round <= std::max(rounds, fold_rounds + 1); ++round) {
-        std::vector<std::size_t> going_on;
-        for (std::size_t f = 0; f < fits.size(); ++f)
-            if (round <= (f == 0 ? rounds : fold_rounds)) going_on.push_back(f);
-        ProgressCounter counter(progress,
-                                round == 0         ? "describing boxes"
-                                : going_on.empty() ? "judging boxes"
-                                                   : "mining negatives",
-                                images.size());
-        workers.for_each(images.size(), [&](std::size_t i, HogPyramid& pyramid) {
-            ThreadPool pool(1);
-            pyramid.assign(images[i].color, finest_level(all_boxes(images[i])), pool);
-            std::vector<std::size_t> seeing = going_on;
-            std::erase_if(seeing, [&](std::size_t f) { return !fitter.sees(fits[f], i); });
-            if (round > 0) {
-                fitter.mine(i, seeing, round, pyramid, pool);
-            } else {
-                fitter.describe(i, pyramid, pool);
-                objects[i] = describer.objects(i, pyramid);
-                words[i] = word_boxes(images[i], boxes_per_image);
-            }
-            for (const std::size_t f : seeing)
-                if (round == (f == 0 ? rounds : fold_rounds))
-                    taken[f][i] =
-                        describer.others(i, fits[f].taken[i], f == 0 ? 1 : fits.size() - 1, pyramid);
-            for (std::size_t f = 1; f < fits.size() && round == fold_rounds + 1; ++f)
-                if (!fitter.sees(fits[f], i))
-                    judged[i] = judged_boxes(i, images[i], fits[f].scorers, judges[f], model.figures,
-                                             model.typical_sizes, pyramid, pool);
-            counter.step();
-        });
-        fitter.fit(going_on, workers.pool());
-        for (std::size_t f = 1; f < fits.size() && round == fold_rounds; ++f) {
-            if (!model.box_classifier.empty()) judges[f].words = words_without(f);
-            judges[f].patches = patches_without(f);
-        }
-    }
-    judges[0].patches = patches_without(0);
-    FittedJudges fitted{
-        .templates = fitter.mean_templates(), .patches = mean_patches(judges), .colors = judges[0].colors};
-    fitted.folds = {fold_of, std::vector<std::vector<FigureColors>>(folds)};
-    for (std::size_t f = 1; f < fits.size(); ++f)
-        fitted.folds.colors_without[fits[f].fold] = std::move(judges[f].colors);
-    for (const std::vector<JudgedBox>& boxes : judged) append(fitted.judged, boxes);
-    return fitted;
-}
-
 }  // namespace detail
 
 /// @brief Adds to a model the template of each class and what its scores are worth, learnt from the same
@@ -258,7 +135,7 @@ struct FittedJudges {
     const std::size_t classes = model.shapes.class_names.size();
     model.figures = mean_figures(model.shapes);
     model.typical_sizes = detail::typical_sizes(images, classes);
-    detail::FittedJudges fitted = detail::fit_judges(images, model, options, threads, progress);
+    detail::FittedJudges fitted = detail::JudgeFitter(images, model, options, threads).fit(progress);
     model.cue_weights = detail::fit_cue_weights(fitted.judged, classes);
     model.template_calibration = detail::calibrated(fitted.judged, model.cue_weights, classes);
     model.templates = std::move(fitted.templates);
