@@ -53,6 +53,29 @@ struct SceneOutcome {
     std::array<double, space_names.size()> seconds{};
 };
 
+/// What was found in all scenes.
+struct DemoSearch {
+    std::vector<SceneOutcome> scenes;
+    std::vector<std::vector<ism::Result>> shown;  ///< by one space, as much as the program tells by default
+};
+
+constexpr const char* what_is_shown = "synthetic: toys and tables were rendered, nothing was photographed";
+
+/// The space of which pictures are shown.
+constexpr std::string_view shown_space = "jism";
+
+/// Threads, and a matcher for each.
+struct Searchers {
+    Searchers(const ism::Model& model, unsigned threads) : pool(threads) {
+        for (unsigned worker = 0; worker < pool.size(); ++worker)
+            matchers.emplace_back(model, single.emplace_back(1u));
+    }
+
+    ism::ThreadPool pool;
+    std::deque<ism::ThreadPool> single;  // one a matcher
+    std::deque<Matcher> matchers;
+};
+
 /// An own or empty folder, or one of an earlier demo.
 void prepare(const fs::path& folder) {
     make_folder(folder);
@@ -164,72 +187,47 @@ std::string opening_text(const fs::path& page) {
     return "file://" + fs::absolute(page).string();
 }
 
-}  // namespace
-
-void run_demo(const DemoCommand& command) {
-    constexpr std::size_t report_scenes = 6, report_rows = 2;
-    constexpr std::string_view shown_space = "jism";
-    const Stopwatch watch;
-    const fs::path& folder = command.folder;
-    prepare(folder);
-    ProgressLine progress;
-    progress.tell("rendering toys", 0, 1);
-    const toy::ToySet set = toy::write_toy_set(folder, toy_options(command));
-    const double render_seconds = watch.seconds();
-
-    const Stopwatch train_watch;
-    ism::TrainOptions options{.threads = command.threads};
+ism::Model learn_toys(const toy::ToySet& set, unsigned threads, ProgressLine& progress) {
+    ism::TrainOptions options{.threads = threads};
     options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
         progress.tell(stage, done, total);
     };
-    const auto features =
-        extract_training_features(set.train.class_names, ism::training_set(set.train, read_picture),
-                                  {make_extractor(default_detector, default_descriptor)}, options);
-    const ism::Model model = learn(features, options);
-    ism::save_model(folder / "model.safetensors", model);
-    const ism::ShapeModel& shapes = model.shapes;
-    const double train_seconds = train_watch.seconds();
+    return learn(extract_training_features(set.train.class_names, ism::training_set(set.train, read_picture),
+                                           {make_extractor(default_detector, default_descriptor)}, options),
+                 options);
+}
 
-    const std::size_t count = set.test.images.size();
-    const OverlayFiles overlays(folder / "overlays", set.test);
+/// Searches each test scene in all spaces, and draws what the one that is shown tells.
+DemoSearch search_scenes(const toy::ToySet& set, const ism::ShapeModel& shapes,
+                         const fs::path& overlay_folder, Searchers& searchers, ProgressLine& progress) {
+    const OverlayFiles overlays(overlay_folder, set.test);
     const ism::Font font = overlay_font(shapes.class_names);
-    std::vector<SceneOutcome> scenes(count);
-    std::vector<std::vector<ism::Result>> told(count);  // what the page shows
-    ism::ThreadPool pool(command.threads);
-    std::deque<ism::ThreadPool> single;  // one a worker
-    std::deque<Matcher> matchers;
-    for (unsigned worker = 0; worker < pool.size(); ++worker)
-        matchers.emplace_back(model, single.emplace_back(1u));
-    pool.for_each(count, [&](std::size_t i, unsigned worker) {
+    const std::size_t count = set.test.images.size();
+    DemoSearch search{std::vector<SceneOutcome>(count), std::vector<std::vector<ism::Result>>(count)};
+    searchers.pool.for_each(count, [&](std::size_t i, unsigned worker) {
         const ism::DatasetImage& image = set.test.images[i];
         const ism::Frame frame = ism::read_frame(image, read_picture);
         const Stopwatch look_watch;
-        const ism::Scene scene = matchers[worker].scene(frame, shown_space);
+        const ism::Scene scene = searchers.matchers[worker].scene(frame, shown_space);
         const double look_seconds = look_watch.seconds();
+        SceneOutcome& outcome = search.scenes[i];
         for (std::size_t s = 0; s < space_names.size(); ++s) {
-            SearchOptions search;
-            search.space = space_names[s], search.min_score = 0, search.keep = 0;  // AP asks for all
+            SearchOptions all;
+            all.space = space_names[s], all.min_score = 0, all.keep = 0;  // AP asks for all
             const Stopwatch search_watch;
-            const ism::Detections found = find_objects(scene, search);
-            scenes[i].seconds[s] = look_seconds + search_watch.seconds();
-            scenes[i].results[s] = ism::to_results(found, image, shapes);
-            if (space_names[s] != shown_space) continue;
-            const ism::Detections shown = find_objects(scene, {.space = search.space});
-            overlays.write(i, ism::read_rgb(image.file), shown, shapes.class_names, font);
-            told[i] = ism::to_results(shown, image, shapes);
+            const ism::Detections found = find_objects(scene, all);
+            outcome.seconds[s] = look_seconds + search_watch.seconds();
+            outcome.results[s] = ism::to_results(found, image, shapes);
         }
+        const ism::Detections shown = find_objects(scene, {.space = std::string(shown_space)});
+        overlays.write(i, ism::read_rgb(image.file), shown, shapes.class_names, font);
+        search.shown[i] = ism::to_results(shown, image, shapes);
         progress.step("detecting in five vote spaces", count);
     });
+    return search;
+}
 
-    DetectPage page(set.test, told, shapes.class_names, short_names(set.test), report_scenes);
-    pool.for_each(page.images().size(), [&](std::size_t k, unsigned worker) {
-        const ism::DatasetImage& image = set.test.images[page.images()[k]];
-        const ism::Frame frame = ism::read_frame(image, read_picture);
-        SearchOptions search;
-        search.space = shown_space, search.explain = true;
-        page.add(k, ism::read_rgb(image.file), matchers[worker].find(frame, search), report_rows, {});
-    });
-
+std::vector<SpaceOutcome> outcomes_of(const toy::ToySet& set, std::span<const SceneOutcome> scenes) {
     std::vector<SpaceOutcome> outcomes;
     for (std::size_t s = 0; s < space_names.size(); ++s) {
         std::vector<ism::Result> results;
@@ -238,20 +236,40 @@ void run_demo(const DemoCommand& command) {
             results.insert(results.end(), scene.results[s].begin(), scene.results[s].end());
             seconds += scene.seconds[s];
         }
-        ism::write_results(folder / ism::join_text("detections-", space_names[s], ".json"), results);
         outcomes.push_back(measure(set, std::move(results)));
-        outcomes.back().milliseconds = 1000 * seconds / double(count);
+        outcomes.back().milliseconds = 1000 * seconds / double(scenes.size());
     }
+    return outcomes;
+}
 
-    const std::string what = "synthetic: toys and tables were rendered, nothing was photographed";
-    const std::string plot = ism::to_svg(plot_of(outcomes));
-    const auto rows = table_of(outcomes);
+/// The page of what was found.
+/// @param shown  has to stay as long as the page
+DetectPage page_of(const toy::ToySet& set, const ism::ShapeModel& shapes,
+                   const std::vector<std::vector<ism::Result>>& shown, Searchers& searchers) {
+    constexpr std::size_t report_scenes = 6, report_rows = 2;
+    DetectPage page(set.test, shown, shapes.class_names, short_names(set.test), report_scenes);
+    searchers.pool.for_each(page.images().size(), [&](std::size_t k, unsigned worker) {
+        const ism::DatasetImage& image = set.test.images[page.images()[k]];
+        const ism::Frame frame = ism::read_frame(image, read_picture);
+        SearchOptions search;
+        search.space = shown_space, search.explain = true;
+        page.add(k, ism::read_rgb(image.file), searchers.matchers[worker].find(frame, search), report_rows,
+                 {});
+    });
+    return page;
+}
+
+/// The page, with what was learnt from and how well each space does.
+ism::Report report_of(const toy::ToySet& set, const ism::Model& model, const DetectPage& page,
+                      const std::vector<std::vector<std::string>>& rows, const std::string& plot) {
+    const ism::ShapeModel& shapes = model.shapes;
     ism::Report report = page.report(
         "ism demo on synthetic toy scenes",
-        {{"pictures", what},
+        {{"pictures", what_is_shown},
          {"learnt from", ism::join_text(set.train.images.size(), " pictures of single toys, ",
                                         shapes.objects.size(), " toys")},
-         {"tested on", ism::join_text(count, " cluttered tables with other toys of the same kinds")},
+         {"tested on",
+          ism::join_text(set.test.images.size(), " cluttered tables with other toys of the same kinds")},
          {"classes", list_text(shapes.class_names)},
          {"features", ism::join_text(default_detector, ", ", default_descriptor)},
          {"model",
@@ -264,13 +282,42 @@ void run_demo(const DemoCommand& command) {
         .rows = {rows.begin() + 1, rows.end()}});
     figures.parts.push_back(ism::ReportPlot{plot});
     report.sections.insert(report.sections.begin(), {std::move(figures), lesson_section(set.train)});
+    return report;
+}
+
+}  // namespace
+
+void run_demo(const DemoCommand& command) {
+    const Stopwatch watch;
+    const fs::path& folder = command.folder;
+    prepare(folder);
+    ProgressLine progress;
+    progress.tell("rendering toys", 0, 1);
+    const toy::ToySet set = toy::write_toy_set(folder, toy_options(command));
+    const double render_seconds = watch.seconds();
+
+    const Stopwatch train_watch;
+    const ism::Model model = learn_toys(set, command.threads, progress);
+    ism::save_model(folder / "model.safetensors", model);
+    const double train_seconds = train_watch.seconds();
+
+    Searchers searchers(model, command.threads);
+    const DemoSearch search = search_scenes(set, model.shapes, folder / "overlays", searchers, progress);
+    const std::vector<SpaceOutcome> outcomes = outcomes_of(set, search.scenes);
+    for (std::size_t s = 0; s < space_names.size(); ++s)
+        ism::write_results(folder / ism::join_text("detections-", space_names[s], ".json"),
+                           outcomes[s].results);
+    const auto rows = table_of(outcomes);
+    const std::string plot = ism::to_svg(plot_of(outcomes));
     ism::write_file(folder / "pr.svg", plot);
-    write_page(folder / "report.html", report, {});
+    write_page(folder / "report.html",
+               report_of(set, model, page_of(set, model.shapes, search.shown, searchers), rows, plot), {});
 
     progress.clear();
-    std::printf("Toy scenes (%s).\n", what.c_str());
-    std::printf("%zu classes (%s), %zu training pictures, %zu test scenes.\n", shapes.class_names.size(),
-                list_text(shapes.class_names).c_str(), set.train.images.size(), count);
+    std::printf("Toy scenes (%s).\n", what_is_shown);
+    std::printf("%zu classes (%s), %zu training pictures, %zu test scenes.\n",
+                model.shapes.class_names.size(), list_text(model.shapes.class_names).c_str(),
+                set.train.images.size(), search.scenes.size());
     std::printf("Rendered in %.0f s, learnt in %.1f s.\n\n", render_seconds, train_seconds);
     std::fputs(ism::align_columns(rows).c_str(), stdout);
     std::printf("\nMeans over the classes; a box is right from an IoU of 0.5; one thread an image.\n");

@@ -107,6 +107,106 @@ void use_shown_classes(ism::Dataset& dataset) {
                      list_text(unused).c_str());
 }
 
+/// The images and labels to learn from.
+ism::Dataset read_lessons(const TrainCommand& command) {
+    ism::Dataset dataset = read_data(command.data, ism::DatasetPart::train, command.skip_bad);
+    check_not_labels(dataset, std::array{command.model});
+    ism::expect(!dataset.class_names.empty(), ism::file_text(command.data), "labels to learn from",
+                "images without (labels are folders named as classes, or files of COCO, VOC, YOLO, labelme)");
+    if (!command.classes.empty()) return ism::select_classes(dataset, command.classes);
+    use_shown_classes(dataset);
+    return dataset;
+}
+
+/// Reads all images once, before what takes long, and tells what looks wrong. Depth without a reading counts
+/// as none.
+/// @return how many were left out
+std::size_t check_lessons(ism::Dataset& dataset, unsigned threads, bool skip_bad) {
+    Doubts doubts;
+    const std::size_t skipped = check_images(dataset, threads, skip_bad, [&](ism::DatasetImage& image) {
+        ism::TrainingImage training = ism::read_training_image(image, read_picture);
+        training.name = ism::file_text(image.file);
+        ism::check(training, dataset.class_names.size());
+        if (!image.depth_file.empty())
+            doubts.add(image.depth_file, ism::depth_scale_doubt(training.frame.depth_m, image.depth_scale));
+        if (training.frame.depth_m.empty()) image.depth_file.clear();
+        if (image.camera && !image.depth_file.empty())
+            doubts.add(image.file, ism::camera_doubt(*image.camera, image.width, image.height));
+    });
+    doubts.tell();
+    return skipped;
+}
+
+/// A model, and what is to be told of how it was learnt.
+struct Learnt {
+    ism::Model model;
+    ism::TrainingFeatures features = {};  ///< as far as they are kept with the model
+    std::string why_so = {};              ///< it is upright or free, where that was chosen
+    std::string depth = {};               ///< what came of it
+    std::size_t cut_out = 0;              ///< objects whose masks were made from their boxes
+};
+
+/// @param known  of the model that is to be added to, if any
+Learnt learn_lessons(const TrainCommand& command, ism::TrainOptions options, const ism::Dataset& dataset,
+                     std::optional<Known> known) {
+    Learnt learnt;
+    auto extractors =
+        known ? known->extractors : std::vector{make_extractor(command.detector, command.descriptor)};
+    bool templates = command.templates && (!known || known->templates);
+    if (!known) {
+        const Orientation orientation = choose_orientation(
+            command.orientation, dataset.class_names, named_images(dataset), extractors, options.threads);
+        extractors.front().options().oriented = orientation.free;
+        templates = templates && orientation.templates;
+        learnt.why_so = orientation.why_so;
+    }
+    options.features.pixels = templates;
+    ism::TrainingFeatures features =
+        extract_training_features(dataset.class_names, named_images(dataset), extractors, options);
+    if (known) features = ism::append(std::move(known->features), std::move(features));
+    learnt.model = learn(features, options);
+    if (templates) learnt.model = learn_templates(std::move(learnt.model), features, options);
+    for (std::size_t i = 0; i < features.objects.size(); ++i)
+        learnt.cut_out += learnt.model.shapes.objects[i].mask != features.objects[i].mask;
+    if (command.growable || known)
+        learnt.features = std::move(features);
+    else
+        features = {};  // the memory is needed
+    if (command.depth) learnt.depth = learn_depth(learnt.model, dataset, options, known ? &*known : nullptr);
+    return learnt;
+}
+
+/// Prints what was learnt, line by line.
+void print_summary(const TrainCommand& command, const Learnt& learnt, std::size_t skipped, double seconds) {
+    const ism::Model& model = learnt.model;
+    const ism::FeatureSettings& settings = model.channels.front().features;
+    const ism::TrainingSummary& summary = model.training;
+    std::printf("model        %s (%s, %s)\n", command.model.string().c_str(), settings.detector.c_str(),
+                settings.descriptor.c_str());
+    std::printf("classes      %s\n", list_text(model.shapes.class_names).c_str());
+    std::printf("images       %zu\n", summary.images);
+    if (skipped > 0) std::printf("skipped      %zu\n", skipped);
+    std::printf("objects      %zu\n", model.shapes.objects.size());
+    if (learnt.cut_out > 0) std::printf("masks        of %zu objects from their boxes\n", learnt.cut_out);
+    std::printf("features     %zu", summary.features_used);
+    if (summary.features_used < summary.features_found) {
+        std::printf(" of %zu, the strongest of each object", summary.features_found);
+        if (command.add_to.empty())
+            std::printf(" (--max-features %zu)", command.options.features.max_features);
+    }
+    std::printf("\nwords        %zu\n", model.words());
+    std::printf("occurrences  %zu\n", model.shapes.occurrences.values().size());
+    std::printf("upsampling   %.3g\n", settings.options.upsampling);
+    std::printf("orientation  %s%s\n", settings.options.oriented ? "free" : "upright", learnt.why_so.c_str());
+    std::printf("templates    %s\n", model.templates.empty() ? "no" : "yes");
+    if (!learnt.depth.empty()) std::printf("depth        %s\n", learnt.depth.c_str());
+    std::printf("seconds      %.1f\n", seconds);
+    if (const std::string doubt = doubt_of_probabilities(model); !doubt.empty())
+        std::fprintf(stderr, "ism: note: %s\n", doubt.c_str());
+    std::printf("\nLearnt %s. Next:\n  %s detect --model %s photo.jpg\n", lessons_text(model.shapes).c_str(),
+                command.program.c_str(), shell_word(command.model.string()).c_str());
+}
+
 }  // namespace
 
 void run_train(const TrainCommand& command) {
@@ -117,85 +217,18 @@ void run_train(const TrainCommand& command) {
     ism::check(options);
     std::optional<Known> known;
     if (!command.add_to.empty()) known = lessons_of(command.add_to, options);
-    ism::Dataset dataset = read_data(command.data, ism::DatasetPart::train, command.skip_bad);
-    check_not_labels(dataset, std::array{command.model});
-    ism::expect(!dataset.class_names.empty(), ism::file_text(command.data), "labels to learn from",
-                "images without (labels are folders named as classes, or files of COCO, VOC, YOLO, labelme)");
-    if (!command.classes.empty())
-        dataset = ism::select_classes(dataset, command.classes);
-    else
-        use_shown_classes(dataset);
-    Doubts doubts;
-    const std::size_t skipped =
-        check_images(dataset, options.threads, command.skip_bad, [&](ism::DatasetImage& image) {
-            ism::TrainingImage training = ism::read_training_image(image, read_picture);
-            training.name = ism::file_text(image.file);
-            ism::check(training, dataset.class_names.size());
-            if (!image.depth_file.empty())
-                doubts.add(image.depth_file,
-                           ism::depth_scale_doubt(training.frame.depth_m, image.depth_scale));
-            if (training.frame.depth_m.empty()) image.depth_file.clear();  // without a reading
-            if (image.camera && !image.depth_file.empty())
-                doubts.add(image.file, ism::camera_doubt(*image.camera, image.width, image.height));
-        });
-    doubts.tell();
+    ism::Dataset dataset = read_lessons(command);
+    const std::size_t skipped = check_lessons(dataset, options.threads, command.skip_bad);
 
     ProgressLine progress;
     options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
         progress.tell(stage, done, total);
     };
-    auto extractors =
-        known ? known->extractors : std::vector{make_extractor(command.detector, command.descriptor)};
-    std::string why_so;
-    bool templates = command.templates && (!known || known->templates);
-    if (!known) {
-        const Orientation orientation = choose_orientation(
-            command.orientation, dataset.class_names, named_images(dataset), extractors, options.threads);
-        extractors.front().options().oriented = orientation.free;
-        templates = templates && orientation.templates;
-        why_so = orientation.why_so;
-    }
-    options.features.pixels = templates;
-    ism::TrainingFeatures features =
-        extract_training_features(dataset.class_names, named_images(dataset), extractors, options);
-    if (known) features = ism::append(std::move(known->features), std::move(features));
-    ism::Model model = learn(features, options);
-    if (templates) model = learn_templates(std::move(model), features, options);
-    std::size_t cut_out = 0;
-    for (std::size_t i = 0; i < features.objects.size(); ++i)
-        cut_out += model.shapes.objects[i].mask != features.objects[i].mask;
     const bool keep_features = command.growable || known;
-    if (!keep_features) features = {};  // the memory is needed
-    const std::string depth =
-        command.depth ? learn_depth(model, dataset, options, known ? &*known : nullptr) : "";
-    ism::save_model(command.model, model, keep_features ? &features : nullptr);
+    const Learnt learnt = learn_lessons(command, options, dataset, std::move(known));
+    ism::save_model(command.model, learnt.model, keep_features ? &learnt.features : nullptr);
     progress.clear();
-
-    const ism::FeatureSettings& settings = model.channels.front().features;
-    const ism::TrainingSummary& summary = model.training;
-    std::printf("model        %s (%s, %s)\n", command.model.string().c_str(), settings.detector.c_str(),
-                settings.descriptor.c_str());
-    std::printf("classes      %s\n", list_text(model.shapes.class_names).c_str());
-    std::printf("images       %zu\n", summary.images);
-    if (skipped > 0) std::printf("skipped      %zu\n", skipped);
-    std::printf("objects      %zu\n", model.shapes.objects.size());
-    if (cut_out > 0) std::printf("masks        of %zu objects from their boxes\n", cut_out);
-    std::printf("features     %zu", summary.features_used);
-    if (summary.features_used < summary.features_found)
-        std::printf(" of %zu, the strongest of each object", summary.features_found);
-    if (summary.features_used < summary.features_found && !known)
-        std::printf(" (--max-features %zu)", options.features.max_features);
-    std::printf("\nwords        %zu\n", model.words());
-    std::printf("occurrences  %zu\n", model.shapes.occurrences.values().size());
-    std::printf("upsampling   %.3g\n", settings.options.upsampling);
-    std::printf("orientation  %s%s\n", settings.options.oriented ? "free" : "upright", why_so.c_str());
-    std::printf("templates    %s\n", model.templates.empty() ? "no" : "yes");
-    if (!depth.empty()) std::printf("depth        %s\n", depth.c_str());
-    std::printf("seconds      %.1f\n", watch.seconds());
-    if (const std::string doubt = doubt_of_probabilities(model); !doubt.empty())
-        std::fprintf(stderr, "ism: note: %s\n", doubt.c_str());
-    std::printf("\nLearnt %s. Next:\n  %s detect --model %s photo.jpg\n", lessons_text(model.shapes).c_str(),
-                command.program.c_str(), shell_word(command.model.string()).c_str());
+    print_summary(command, learnt, skipped, watch.seconds());
 }
 
 }  // namespace program
