@@ -7,12 +7,12 @@ cmake_minimum_required(VERSION 3.22)
 #   header | headers of ours it may reach | libraries it may reach (of those below)
 set(libraries "Eigen/" "nlohmann/" "stb/" "nanoflann" "CLI/" "iostream" "memory" "regex")
 set(budget
-    "ism.hpp                    | 152 | "
+    "ism.hpp                    | 153 | "
     "vote/axes.hpp              |  17 | "
-    "detect/detect.hpp          | 106 | "
+    "detect/detect.hpp          | 107 | "
     "train/train_options.hpp    |   7 | "
     "train/training_image.hpp   |  10 | "
-    "train/train.hpp            | 140 | "
+    "train/train.hpp            | 141 | "
     "evaluate/evaluate.hpp      |  10 | "
     "core/frame.hpp             |   8 | "
     "feature/hessian_laplace.hpp|  30 | "
@@ -20,7 +20,7 @@ set(budget
     "dataset/dataset.hpp        |  13 | "
     "dataset/coco.hpp           |  19 | nlohmann/"
     "io/images.hpp              |  12 | stb/ memory"
-    "model_file/model_file.hpp  |  73 | nlohmann/"
+    "model_file/model_file.hpp  |  74 | nlohmann/"
 )
 set(errors "")
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -12,13 +11,10 @@
 #include "ism/core/random.hpp"
 #include "ism/core/region_mask.hpp"
 #include "ism/core/vec3.hpp"
+#include "ism/depth/shape_bins.hpp"
 #include "ism/depth/surface.hpp"
 
 namespace ism {
-
-/// @brief Numbers of a shape histogram: 8 distances × 3 agreements of normals × concave or not.
-inline constexpr std::size_t shape_bins = 48;
-using ShapeHistogram = std::array<float, shape_bins>;
 
 /// @brief The shape of a region, however it is turned: pairs of random points of it, counted by their
 /// distance (8 bins of `bin_m`, the last open), the agreement of their normals (cosine above .9, above .5,

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -62,7 +61,6 @@ public:
         : model_(model), pool_(pool), channels_(extractors.size()) {
         expect(extractors.size() == model.channels.size(), "detection: extractors, one a channel",
                model.channels.size(), extractors.size());
-        std::size_t words = 0;
         for (std::size_t c = 0; c < extractors.size(); ++c) {
             const FeatureSettings &wanted = model.channels[c].features, &given = extractors[c].settings();
             expect(given.detector == wanted.detector && given.descriptor == wanted.descriptor &&
@@ -72,9 +70,8 @@ public:
             expect(is_same_way(given, wanted), "detection: options of features",
                    "those of the model (Model::channels)", "others");
             channels_[c] = {extractors[c].start(pool),
-                            Shared<const WordIndex>::make(model.channels[c].codebook),
-                            static_cast<std::uint32_t>(words), model.channels[c].neighbours};
-            words += model.channels[c].codebook.size();
+                            Shared<const WordIndex>::make(model.channels[c].codebook), model.first_word(c),
+                            model.channels[c].neighbours};
         }
     }
 
@@ -96,12 +93,9 @@ public:
             Stopwatch watch;
             const FeatureSet<float>& found = channel.extract(frame);
             scene.extract_ms += watch.lap_ms();
-            const auto first = static_cast<std::uint32_t>(scene.features.size());
-            detail::append(scene.features, found.features);
-            for (Match match : match_words(*channel.words, found.descriptors, channel.neighbours, pool_)) {
-                match.feature += first, match.word += channel.first_word;
-                scene.matches.push_back(match);
-            }
+            add_channel(scene, found.features,
+                        match_words(*channel.words, found.descriptors, channel.neighbours, pool_),
+                        channel.first_word);
             scene.match_ms += watch.lap_ms();
         }
         if (!frame.depth_m.empty()) scene.features = with_depth(std::move(scene.features), frame.depth_m);
@@ -112,8 +106,7 @@ private:
     struct Channel {
         ExtractFeatures extract;
         Shared<const WordIndex> words;
-        std::uint32_t first_word = 0;
-        std::size_t neighbours = 0;
+        std::size_t first_word = 0, neighbours = 0;
     };
 
     const Model& model_;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "ism/core/camera.hpp"
@@ -17,7 +16,7 @@ namespace ism {
 inline void move_to(Detection& detection, const Box& box, const std::optional<Camera>& camera) {
     detection.box = box;
     detection.centre = box.centre();
-    detection.scale = std::sqrt(box.area()) / reference_size_px;
+    detection.scale = scale_of(box);
     if (camera && is_depth(detection.depth_m))
         detection.position_m = back_project(*camera, detection.centre, detection.depth_m);
 }

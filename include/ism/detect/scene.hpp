@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "ism/codebook/codebook.hpp"
+#include "ism/codebook/match.hpp"
 #include "ism/core/frame.hpp"
+#include "ism/core/lists.hpp"
 #include "ism/core/local_frame.hpp"
 #include "ism/core/shared.hpp"
 #include "ism/core/thread_pool.hpp"
@@ -38,6 +41,19 @@ struct Scene {
     std::vector<std::optional<LocalFrame>> frames = {};  ///< of the features
     FrameMemory* memory = nullptr;                       ///< of the FrameMatcher that made this
 };
+
+/// @brief Adds the features of a channel and their matches to a scene.
+/// @param first_word  of the channel; features and words are counted through all channels
+inline void add_channel(Scene& scene, const std::vector<Feature>& features, const std::vector<Match>& matches,
+                        std::size_t first_word) {
+    const std::size_t first = scene.features.size();
+    detail::append(scene.features, features);
+    for (Match match : matches) {
+        match.feature += static_cast<std::uint32_t>(first);
+        match.word += static_cast<std::uint32_t>(first_word);
+        scene.matches.push_back(match);
+    }
+}
 
 /// @brief Adds surface and local frames to a scene: in ism/detect/surface_scene.hpp, which a vote space with
 /// poses needs.

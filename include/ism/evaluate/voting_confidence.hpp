@@ -61,7 +61,7 @@ template <std::size_t Dimension>
 template <VoteSpaceType Space>
 [[nodiscard]] Mode<Space::dimension> true_place(const TrueObject& object, const Camera* camera) {
     const Point2 centre = object.box.centre();
-    const double scale = std::sqrt(object.box.area()) / reference_size_px;
+    const double scale = scale_of(object.box);
     const Feature feature{
         .x = float(centre.x), .y = float(centre.y), .scale = float(scale), .depth_m = float(object.depth_m)};
     const Occurrence occurrence{.class_index = object.class_index};

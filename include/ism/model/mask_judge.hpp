@@ -8,20 +8,18 @@
 #include <limits>
 #include <vector>
 
-#include "ism/config.hpp"
+#include "ism/depth/shape_bins.hpp"
 
 namespace ism {
 
 /// @brief Bins of a region's colours: 12 hues × 3 values where there is colour, 6 values of grey.
 inline constexpr std::size_t color_histogram_bins = 42;
-/// @brief Bins of a region's shape: see ShapeHistogram.
-inline constexpr std::size_t shape_histogram_bins = 48;
 
 /// @brief What a region of an RGB-D image looks like: roots of shares, so that squares of a histogram add up
 /// to 1. Without depth the shape is all 0; colours of a grey picture are greys.
 struct MaskLook {
     std::array<float, color_histogram_bins> color{};
-    std::array<float, shape_histogram_bins> shape{};
+    ShapeHistogram shape{};
     [[nodiscard]] bool operator==(const MaskLook&) const = default;
 };
 

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "ism/core/camera.hpp"
+#include "ism/core/geometry.hpp"
 
 namespace ism {
 
@@ -12,6 +14,11 @@ namespace ism {
 /// vote spaces means an object of this size, whatever size it had in its training image (Zhang and Kjellström
 /// scale their training images to one width).
 inline constexpr double reference_size_px = 200;
+
+/// @brief How many pixels of an image an object with this box has for each of the reference size.
+[[nodiscard]] inline double scale_of(const Box& box) {
+    return std::sqrt(box.area()) / reference_size_px;
+}
 
 /// @brief One place on a training object where a word was seen (O_i of Eqs 1 and 4). Positions and scales are
 /// those at the reference size.

@@ -109,7 +109,7 @@ inline void mask_judge_to_tensors(const MaskJudge& judge, TensorFile& file) {
     for (const MaskCues& row : {mean, deviation, weights})
         regression.insert(regression.end(), row.begin(), row.end());
     file.tensors["mask_looks"] =
-        make_tensor<float>(looks, {examples.size(), color_histogram_bins + shape_histogram_bins});
+        make_tensor<float>(looks, {examples.size(), color_histogram_bins + shape_bins});
     file.tensors["mask_classes"] = make_tensor<std::uint32_t>(what, {examples.size(), 2});
     file.tensors["mask_regression"] = make_tensor<float>(regression, {3, mask_cue_count});
     file.tensors["mask_numbers"] = make_tensor<float>(std::array{bias, shape_bin_m}, {2});
@@ -119,9 +119,8 @@ inline void mask_judge_to_tensors(const MaskJudge& judge, TensorFile& file) {
                                                        std::span<const TrainingObject> objects) {
     MaskJudge judge;
     if (!file.tensors.contains("mask_looks")) return judge;
-    const auto looks =
-        values<float>(file, "mask_looks", {any_length, color_histogram_bins + shape_histogram_bins});
-    const std::size_t count = looks.size() / (color_histogram_bins + shape_histogram_bins);
+    const auto looks = values<float>(file, "mask_looks", {any_length, color_histogram_bins + shape_bins});
+    const std::size_t count = looks.size() / (color_histogram_bins + shape_bins);
     const auto what = values<std::uint32_t>(file, "mask_classes", {count, 2});
     const auto regression = values<float>(file, "mask_regression", {3, mask_cue_count});
     const auto numbers = values<float>(file, "mask_numbers", {2});
@@ -136,9 +135,9 @@ inline void mask_judge_to_tensors(const MaskJudge& judge, TensorFile& file) {
                                            objects[example.object].class_index == example.class_index,
                           lazy_text(file.source, ": mask_classes"), "background, or the class of an object",
                           lazy_text(example.class_index, " of object ", example.object));
-        const float* look = looks.data() + i * (color_histogram_bins + shape_histogram_bins);
+        const float* look = looks.data() + i * (color_histogram_bins + shape_bins);
         std::copy_n(look, color_histogram_bins, example.look.color.begin());
-        std::copy_n(look + color_histogram_bins, shape_histogram_bins, example.look.shape.begin());
+        std::copy_n(look + color_histogram_bins, shape_bins, example.look.shape.begin());
         judge.examples.push_back(example);
     }
     std::copy_n(regression.begin(), mask_cue_count, judge.mean.begin());

@@ -47,7 +47,7 @@ struct JudgedBox {
 [[nodiscard]] inline bool shows_another(const Box& box, const std::vector<ObjectLabel>& labels,
                                         std::uint32_t class_index) {
     return std::any_of(labels.begin(), labels.end(), [&](const ObjectLabel& label) {
-        return label.class_index != class_index && iou(box, label.box) >= 0.5;
+        return label.class_index != class_index && iou(box, label.box) >= right_iou;
     });
 }
 
@@ -112,7 +112,7 @@ struct FoldJudges {
                 }))
                 continue;
             kept.push_back(box);
-            const bool right = best_iou(box.box, image.labels, c) >= 0.5;
+            const bool right = best_iou(box.box, image.labels, c) >= right_iou;
             if (!right && (shows_another(box.box, image.labels, c) || is_ignored(box.box, image.ignored)))
                 continue;
             judged.push_back({image_index, c, box.box, reader.cues(c, box, scratch), right});

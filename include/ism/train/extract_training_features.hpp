@@ -111,7 +111,7 @@ private:
         const float depth_m = object.position_m             ? static_cast<float>(object.position_m->z)
                               : image.frame.depth_m.empty() ? no_depth
                                                             : object_depth(image.frame, mask);
-        const Placement lies{object.box.centre(), std::sqrt(object.box.area()) / reference_size_px, 0};
+        const Placement lies = upright_in(object.box);
         for (std::size_t c = 0; c < view.channels.size(); ++c) {
             const auto& [features, descriptors] = view.channels[c];
             const std::vector<std::uint32_t> on = features_on(mask, features);

@@ -175,7 +175,7 @@ public:
                 std::size_t room = mined_of_image(fit, c);
                 for (const SearchedBox& box : found[n]) {
                     if (room == 0 || box.score <= -1) break;
-                    const bool right = best_iou(box.box, shown.labels, c) >= 0.5;
+                    const bool right = best_iou(box.box, shown.labels, c) >= right_iou;
                     if (!right && is_ignored(box.box, shown.ignored)) continue;
                     taken[k].push_back(box);
                     if (right) continue;

@@ -123,7 +123,7 @@ struct ScoredExample {
         for (const TrainingBox& box : halves[half]) {
             if (!box.is_hypothesis()) continue;
             const double score = box.score * classifier.probability(box.predicted_class, box.histogram);
-            const bool positive = box.true_class == box.predicted_class && box.overlap >= 0.5;
+            const bool positive = box.true_class == box.predicted_class && box.overlap >= right_iou;
             of_class[box.predicted_class].push_back({score, positive});
             all.push_back({score, positive});
         }

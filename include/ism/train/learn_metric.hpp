@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -51,8 +50,7 @@ struct MetricWords {
         if (!under[f]) continue;
         const ObjectLabel& label = view.labels[*under[f]];
         const TrainingObject& object = words.objects[*under[f]];
-        const Placement lies{label.box.centre(), std::sqrt(label.box.area()) / reference_size_px, 0};
-        Occurrence o = as_occurrence(features[f], lies);
+        Occurrence o = as_occurrence(features[f], upright_in(label.box));
         o.class_index = label.class_index;
         o.object = view.first_object + *under[f];
         o.depth_m = object.size_m > 0 ? features[f].depth_m - object.centre_m.z : no_depth;

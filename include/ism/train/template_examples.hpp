@@ -91,7 +91,7 @@ namespace detail {
 
 /// Whether a box is that of a labelled object.
 [[nodiscard]] inline bool shows_any(const Box& box, const std::vector<ObjectLabel>& labels) {
-    return any_of(labels, [&](const ObjectLabel& label) { return iou(box, label.box) >= 0.5; });
+    return any_of(labels, [&](const ObjectLabel& label) { return iou(box, label.box) >= right_iou; });
 }
 
 /// Whether an image shows an object of a class.

@@ -52,14 +52,8 @@ using WordIndices = std::vector<Shared<const WordIndex>>;
                                           const WordIndices& words, const Frame& blank, ThreadPool& pool) {
     Scene scene{.frame = blank, .model = model, .pool = pool};
     for (std::size_t c = 0; c < words.size(); ++c) {
-        const auto first = static_cast<std::uint32_t>(scene.features.size());
-        const auto first_word = static_cast<std::uint32_t>(model.first_word(c));
         const auto& [features, descriptors] = view.channels[c];
-        append(scene.features, features);
-        for (Match match : match(*words[c], descriptors, pool)) {
-            match.feature += first, match.word += first_word;
-            scene.matches.push_back(match);
-        }
+        add_channel(scene, features, match(*words[c], descriptors, pool), model.first_word(c));
     }
     return scene;
 }
@@ -111,7 +105,7 @@ template <ImageVoteSpace Space>
     for (const ObjectLabel& label : view.labels) boxes.push_back(labelled_box(label, words));
     for (const Detection& guess : find_hypotheses_of_others<Space>(view, scene, search)) {
         TrainingBox box = hypothesis_box(guess.class_index, guess.box, guess.score, view.labels, words);
-        if (box.overlap >= 0.5 || !is_ignored(guess.box, view.ignored)) boxes.push_back(std::move(box));
+        if (box.overlap >= right_iou || !is_ignored(guess.box, view.ignored)) boxes.push_back(std::move(box));
     }
     return boxes;
 }

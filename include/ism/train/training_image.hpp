@@ -25,6 +25,9 @@ struct ObjectLabel {
     bool masked = false;            ///< labelled with a mask, too
 };
 
+/// @brief From this IoU on a box is that of a labelled object, in training as where detections are judged.
+inline constexpr double right_iou = 0.5;
+
 /// @brief One labelled object of a training image.
 struct LabelledObject {
     std::uint32_t class_index = 0;  ///< into the class names given to train()

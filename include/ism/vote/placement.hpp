@@ -23,6 +23,11 @@ struct Placement {
     double angle = 0;  ///< turned by so much, radians from x towards y
 };
 
+/// @brief An object as upright as it was labelled, in this box.
+[[nodiscard]] inline Placement upright_in(const Box& box) {
+    return {box.centre(), scale_of(box), 0};
+}
+
 namespace detail {
 
 /// A vector turned and scaled as a placement says. Most objects are upright: they need no sine.
