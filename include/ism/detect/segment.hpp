@@ -76,6 +76,51 @@ namespace detail {
 
 }  // namespace detail
 
+namespace detail {
+
+/// Figure and ground of a part of an image, in cells of `step` pixels.
+struct VotedMaps {
+    int left = 0, top = 0, step = 1;  ///< pixels
+    GrayImage figure, ground;
+
+    /// Adds what a patch of this radius says by the mask of the training object that it was seen on.
+    void add(float weight, const Feature& f, double radius_px, const Placement& placed,
+             const TrainingObject& object) {
+        const auto cell = [&](double px, int cells) {
+            return static_cast<int>(std::clamp(std::ceil(px / step), 0.0, static_cast<double>(cells)));
+        };
+        const int x0 = cell(f.x - radius_px - left, figure.width()),
+                  x1 = cell(f.x + radius_px - left, figure.width());
+        const int y0 = cell(f.y - radius_px - top, figure.height()),
+                  y1 = cell(f.y + radius_px - top, figure.height());
+        // On the object a step to the right is (dx.x, dx.y), whatever it is turned by.
+        const Point2 origin = to_object(placed, {double(left), double(top)});
+        const Point2 right = to_object(placed, {double(left + step), double(top)});
+        const Point2 down = to_object(placed, {double(left), double(top + step)});
+        const Point2 dx{right.x - origin.x, right.y - origin.y}, dy{down.x - origin.x, down.y - origin.y};
+        for (int y = y0; y < y1; ++y)
+            for (int x = x0; x < x1; ++x) {
+                const float share = figure_share(object, static_cast<float>(origin.x + x * dx.x + y * dy.x),
+                                                 static_cast<float>(origin.y + x * dx.y + y * dy.y));
+                figure(x, y) += weight * share;
+                ground(x, y) += weight * (1 - share);
+            }
+    }
+};
+
+/// Cells of `step` pixels in the image's resolution.
+[[nodiscard]] inline GrayImage interpolated(const GrayImage& cells, int step, int width, int height) {
+    GrayImage image(width, height);
+    const float to_cell = 1.0f / static_cast<float>(step);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            image(x, y) =
+                sample_bilinear(cells, static_cast<float>(x) * to_cell, static_cast<float>(y) * to_cell);
+    return image;
+}
+
+}  // namespace detail
+
 inline Segmentation PatchSegmenter::segment(const Detection& hypothesis, const Scene& scene) const {
     const Box& box = hypothesis.box;
     const int image_width = scene.frame.gray.width(), image_height = scene.frame.gray.height();
@@ -88,49 +133,18 @@ inline Segmentation PatchSegmenter::segment(const Detection& hypothesis, const S
     const int width = std::max(1, inside(std::ceil(box.x + box.width + mx), image_width) - left);
     const int height = std::max(1, inside(std::ceil(box.y + box.height + my), image_height) - top);
     const int step = std::max(1, (std::max(width, height) + max_cells - 1) / max_cells);
-    GrayImage figure((width + step - 1) / step, (height + step - 1) / step), ground = figure;
-
+    const GrayImage none((width + step - 1) / step, (height + step - 1) / step);
+    detail::VotedMaps maps{left, top, step, none, none};
     const ShapeModel& shapes = scene.model.shapes;
     for (const Support& patch : detail::joined_patches(hypothesis.support, shapes)) {
         const Feature& f = scene.features[patch.feature];
         const Occurrence& o = shapes.occurrence(patch.occurrence);
-        const TrainingObject& object = shapes.objects[o.object];
-        const Placement placed = placement(f, o);
-        const double radius = patch_radius * f.scale;
-        const auto cell = [&](double px, int cells) {
-            return static_cast<int>(std::clamp(std::ceil(px / step), 0.0, static_cast<double>(cells)));
-        };
-        const int x0 = cell(f.x - radius - left, figure.width()),
-                  x1 = cell(f.x + radius - left, figure.width());
-        const int y0 = cell(f.y - radius - top, figure.height()),
-                  y1 = cell(f.y + radius - top, figure.height());
-        // On the object a step to the right is (dx.x, dx.y), whatever it is turned by.
-        const Point2 origin = to_object(placed, {double(left), double(top)});
-        const Point2 right = to_object(placed, {double(left + step), double(top)});
-        const Point2 down = to_object(placed, {double(left), double(top + step)});
-        const Point2 dx{right.x - origin.x, right.y - origin.y}, dy{down.x - origin.x, down.y - origin.y};
-        for (int y = y0; y < y1; ++y)
-            for (int x = x0; x < x1; ++x) {
-                const float share = figure_share(object, static_cast<float>(origin.x + x * dx.x + y * dy.x),
-                                                 static_cast<float>(origin.y + x * dx.y + y * dy.y));
-                figure(x, y) += patch.weight * share;
-                ground(x, y) += patch.weight * (1 - share);
-            }
+        maps.add(patch.weight, f, patch_radius * f.scale, placement(f, o), shapes.objects[o.object]);
     }
-
-    const auto interpolated = [&](const GrayImage& cells) {
-        GrayImage image(width, height);
-        const float to_cell = 1.0f / static_cast<float>(step);
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                image(x, y) =
-                    sample_bilinear(cells, static_cast<float>(x) * to_cell, static_cast<float>(y) * to_cell);
-        return image;
-    };
     Segmentation result{.x = left,
                         .y = top,
-                        .figure = interpolated(figure),
-                        .ground = interpolated(ground),
+                        .figure = detail::interpolated(maps.figure, step, width, height),
+                        .ground = detail::interpolated(maps.ground, step, width, height),
                         .mask = Mask(width, height)};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) result.mask(x, y) = result.figure(x, y) > result.ground(x, y);
