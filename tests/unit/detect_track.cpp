@@ -152,6 +152,26 @@ TEST_CASE("without positions, and with NaN as one, boxes tell what is the same")
     }
 }
 
+TEST_CASE("a position that is not measured any more is forgotten, and the object found by its box") {
+    ism::Tracker tracker({.birth_hits = 1, .max_misses = 3});
+    for (int i = 0; i < 5; ++i) (void)tracker.update(Frames{seen(0, {0, 0, 1})});
+    std::vector<ism::Track> tracks;
+    for (int i = 1; i <= 40; ++i) {  // depth is lost, and the object moves on by a twentieth of its box
+        ism::Detection moved = seen(0, {0.01 * i, 0, 1});
+        moved.position_m.reset();
+        tracks = tracker.update(Frames{moved});
+        REQUIRE(tracks.size() == 1);
+        CHECK(tracks[0].unplaced == std::size_t(i));
+        CHECK(tracks[0].position_m.has_value() == (i <= 3));
+        if (i > 3) CHECK(tracks[0].position_error_m == 0);
+    }
+    tracks = tracker.update(Frames{seen(0, {0.41, 0, 1})});  // and is there again
+    REQUIRE(tracks.size() == 1);
+    CHECK(tracks[0].id == 1);
+    CHECK(tracks[0].unplaced == 0);
+    CHECK(tracks[0].position_m == ism::Point3{0.41, 0, 1});
+}
+
 TEST_CASE("options of the tracker that cannot be are refused") {
     const auto refused = [](const ism::TrackerOptions& options, const std::string& field) {
         CHECK_THROWS_WITH(ism::Tracker(options), Catch::Contains(field));

@@ -22,7 +22,7 @@ struct TrackerOptions {
     double max_distance_m = 0.1;    ///< an object is not found farther from where it is thought to be
     double min_iou = 0.3;           ///< … or, without positions, with boxes that overlap less
     std::size_t birth_hits = 3;     ///< frames in which it has to be found before it is told
-    std::size_t max_misses = 5;     ///< frames in a row in which it may be missed
+    std::size_t max_misses = 5;     ///< frames in a row in which it may be missed, or only its position
     double drift_m = 0.003;         ///< how far an object may move from frame to frame, standard deviation
     double least_error_m = 0.003;   ///< no position is trusted more
     double unknown_error_m = 0.03;  ///< what a position may be off by that does not tell
@@ -51,6 +51,7 @@ struct Track {
     Box box = {};                               ///< where it was found last, pixels
     std::optional<Point3> position_m = {};      ///< smoothed, in the camera frame
     double position_error_m = 0;                ///< standard error of position_m, where there is one
+    std::size_t unplaced = 0;                   ///< frames in a row now without a position
     std::size_t hits = 0, misses = 0;           ///< frames: found in all, missed in a row now
     std::optional<std::size_t> detection = {};  ///< which of the last frame it is; none = missed there
 };
@@ -58,8 +59,9 @@ struct Track {
 /// @brief Keeps the identities of objects over frames and smooths their positions. An object is where it was
 /// (constant position, so the camera has to move little from frame to frame): each frame the nearest pairs of
 /// track and detection of one class come together, in metres, or by the overlap of their boxes where one has
-/// no position; a scalar Kalman filter (1960), the same for the three axes, weighs a new position by
-/// what it may be off by. The same detections give the same tracks.
+/// no position (one that was not measured for more than max_misses frames is forgotten); a scalar Kalman
+/// filter (1960), the same for the three axes, weighs a new position by what it may be off by. The same
+/// detections give the same tracks.
 class Tracker {
 public:
     /// @throws Error as check(const TrackerOptions&) does.
@@ -69,7 +71,7 @@ public:
     /// @return the objects known now, by rising id; also those missed in this frame
     std::vector<Track> update(std::span<const Detection> detections) {
         for (Track& track : tracks_) {
-            track.detection.reset(), ++track.misses;
+            track.detection.reset(), ++track.misses, ++track.unplaced;
             track.position_error_m = std::hypot(track.position_error_m, options_.drift_m);
         }
         std::vector<bool> taken(detections.size(), false);
@@ -78,6 +80,8 @@ public:
             taken[pair.detection] = true;
             follow(tracks_[pair.track], detections[pair.detection], pair.detection);
         }
+        for (Track& track : tracks_)
+            if (track.unplaced > options_.max_misses) track.position_m.reset(), track.position_error_m = 0;
         std::erase_if(tracks_, [&](const Track& track) {
             return track.misses > (track.id > 0 ? options_.max_misses : track.hits - 1);
         });
@@ -129,6 +133,7 @@ private:
         track.probability += (detection.probability - track.probability) / double(track.hits);
         const auto p = position_of(detection);
         if (!p) return;
+        track.unplaced = 0;
         const double told = detection.position_error_m;
         const double error =
             std::isfinite(told) ? std::max(told, options_.least_error_m) : options_.unknown_error_m;
