@@ -123,13 +123,16 @@ TEST_CASE("votes weigh for the boxes that they stand for") {
     std::vector<std::uint32_t> agreeing;
     voted.each_agreeing(0, box, [&](std::uint32_t vote, float, double) { agreeing.push_back(vote); });
     CHECK(agreeing == std::vector<std::uint32_t>{0, 1});
-    voted.thin(0);
+    voted.thin(0, 64);
     CHECK(voted.weight(0, box) == 0);
     CHECK(voted.weight(1, box) == Approx(5));
     for (int i = 0; i < 640; ++i) votes.push_back(votes.front());
     ism::VotedBoxes many(votes, features, shapes);
-    many.thin(0);
+    many.thin(0, 64);
     CHECK(many.weight(0, box) == Approx(2 * 640));
+    ism::VotedBoxes halved(votes, features, shapes);
+    halved.thin(0, 2);
+    CHECK(halved.weight(0, box) == Approx(2 * 642).margin(2));
 }
 
 TEST_CASE("votes agree with a box by the IoU of theirs, wherever it lies") {

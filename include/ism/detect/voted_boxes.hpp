@@ -119,10 +119,9 @@ public:
         return (own + 0.1) / (all + 0.2);
     }
 
-    /// @brief Keeps every 64th vote of a class at 64 times its weight, for the memory that they take: enough
-    /// for sums over many classes.
-    void thin(std::uint32_t class_index) {
-        constexpr std::size_t step = 64;
+    /// @brief Keeps every so manyth vote of a class at so many times its weight, for the memory that they
+    /// take: enough for sums over many votes.
+    void thin(std::uint32_t class_index, std::size_t step) {
         std::size_t passed = step / 2;  // since the last that was kept
         Blocks kept;
         for (const detail::VotedBlock& votes : of_class_[class_index])
