@@ -228,7 +228,7 @@ TEST_CASE("extract refuses what is not an image") {
     auto image = picture(40, 40);
     image(3, 17) = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_WITH(ism::extract(image.view(), dog),
-                      "image brightness at (3, 17): expected 0 to 1 (accepted: -100 to 100), got nan");
+                      "image brightness at (3, 17): expected 0 to 1 (accepted: -4 to 4), got nan");
     image(3, 17) = std::numeric_limits<float>::infinity();
     CHECK_THROWS_AS(ism::extract(image.view(), dog), ism::Error);
     auto wrong = dog;

@@ -10,9 +10,8 @@
 namespace ism {
 
 /// @brief Brightness is 0 (black) … 1 (white) and may exceed this a little, as after sharpening. Beyond ±
-/// this bound it is refused: it is of another unit, and fourth powers of it, as corners need, leave the
-/// numbers.
-inline constexpr float max_brightness = 100;
+/// this bound it is refused: it is of another unit, 0 … 255 say, of which even a dark picture has more.
+inline constexpr float max_brightness = 4;
 
 namespace detail {
 
