@@ -71,6 +71,24 @@ DepthImages depth_images(const ism::Dataset& dataset) {
     return images;
 }
 
+/// Tells beforehand where the part for depth will be left out, since it has to know all classes.
+void tell_lack_of_depth(const ism::Dataset& dataset) {
+    const DepthImages images = depth_images(dataset);
+    std::vector<bool> shown(dataset.class_names.size(), false);
+    for (const std::size_t i : images.usable)
+        for (const ism::DatasetAnnotation& object : dataset.images[i].objects)
+            shown[object.class_index] = true;
+    std::vector<std::string> lacking;
+    for (std::size_t c = 0; c < shown.size(); ++c)
+        if (!shown[c]) lacking.push_back(ism::one_line(dataset.class_names[c]));
+    if (images.usable.empty() || lacking.empty()) return;
+    std::fprintf(
+        stderr,
+        "ism: note: without the space metric, since no image with depth and camera shows %s (--class "
+        "names the classes to learn)\n",
+        list_text(lacking).c_str());
+}
+
 /// Learns the model for frames with depth, which what --add-to keeps cannot.
 /// @return what came of it, to be told; empty where nothing has depth
 std::string learn_depth(ism::Model& model, const ism::Dataset& dataset, const ism::TrainOptions& options,
@@ -219,6 +237,7 @@ void run_train(const TrainCommand& command) {
     if (!command.add_to.empty()) known = lessons_of(command.add_to, options);
     ism::Dataset dataset = read_lessons(command);
     const std::size_t skipped = check_lessons(dataset, options.threads, command.skip_bad);
+    if (command.depth && !known) tell_lack_of_depth(dataset);
 
     ProgressLine progress;
     options.progress = [&](std::string_view stage, std::size_t done, std::size_t total) {

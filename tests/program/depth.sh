@@ -120,6 +120,15 @@ sed -E 's/"camera":\{[^}]*\},//' toys/train.json >toys/train-no-camera.json
 "$ism" train --data toys/train-no-camera.json -o flat --no-templates --class car >train.txt
 grep -qx "depth        left out: [0-9]* images have depth, none has a camera" train.txt || fail "$(cat train.txt)"
 
+# A class that no image with depth shows is named before it is learnt from.
+sed -E '/train-000[0-5]\.png/s/"depth_file_name":"[^"]*","depth_scale":[0-9.]*,//' toys/train.json >toys/part.json
+"$ism" train --data toys/part.json -o part --no-templates --class car --class mug >train.txt 2>note.txt
+says "note: without the space metric, since no image with depth and camera shows car (" note.txt
+says "depth        left out, the space metric is not there: " train.txt
+"$ism" train --data toys/part.json -o part --no-templates --class mug >train.txt 2>note.txt
+says "depth        of 6 images" train.txt
+! grep "without the space metric" note.txt || fail "all classes have depth"
+
 # More classes are taught to the colours alone, which is said, also where the new images have no depth.
 sed -E 's/"depth_file_name":"[^"]*",//; s/"depth_scale":[0-9.]*,//' toys/train.json >toys/train-colour.json
 "$ism" train --data toys/train.json -o two --no-templates --class car --growable >train.txt
