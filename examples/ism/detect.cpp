@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <deque>
 #include <map>
@@ -132,7 +133,8 @@ public:
             const std::string first = std::move(waiting_.extract(waiting_.begin()).mapped());
             std::fwrite(first.data(), 1, first.size(), stdout);
         }
-        std::fflush(stdout);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            throw ism::FileError("standard output: expected to write it whole, got a failure");
     }
 
 private:
@@ -215,12 +217,41 @@ struct Outcome {
     std::vector<FoundInImage> found;  ///< in each image
     std::string space;                ///< in which was searched
     double search_seconds = 0;
+    std::vector<std::uint8_t> lost;  ///< of each image: it could not be read any more
     [[nodiscard]] std::size_t objects() const {
         return std::accumulate(
             found.begin(), found.end(), std::size_t(0),
             [](std::size_t sum, const FoundInImage& image) { return sum + image.results.size(); });
     }
 };
+
+/// The i-th image; none, which is told, where it is gone since it was checked and may be left out.
+std::shared_ptr<const ism::Frame> frame_if_there(const DetectInput& input, std::size_t i, bool skip_bad) {
+    if (!skip_bad) return frame_of(input, i);
+    try {
+        return frame_of(input, i);
+    } catch (const ism::FileError& error) {
+        std::fprintf(stderr, "ism: skipped: %s\n", error.what());
+        return nullptr;
+    }
+}
+
+/// Leaves out the images that were lost on the way.
+void leave_out_lost(DetectInput& input, Outcome& outcome) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < outcome.lost.size(); ++i) {
+        if (outcome.lost[i] != 0) continue;
+        if (kept < i) {
+            input.dataset.images[kept] = std::move(input.dataset.images[i]);
+            input.names[kept] = std::move(input.names[i]);
+            outcome.found[kept] = std::move(outcome.found[i]);
+        }
+        ++kept;
+    }
+    input.skipped += outcome.lost.size() - kept;
+    input.dataset.images.resize(kept), input.names.resize(kept), outcome.found.resize(kept);
+    ism::expect<ism::FileError>(kept > 0, "images", "1 or more that can be read", "none any more");
+}
 
 /// Searches all images, draws what is found, and tells of each what is told at once.
 Outcome search_images(Searcher& searcher, const DetectCommand& command, const DetectInput& input,
@@ -229,14 +260,21 @@ Outcome search_images(Searcher& searcher, const DetectCommand& command, const De
     const std::size_t count = input.dataset.images.size();
     const Line line = line_at_once(command);
     const bool lines_shown = line != nullptr && isatty(STDOUT_FILENO) != 0;  // and tell how far it is
-    Outcome outcome{.found = std::vector<FoundInImage>(count), .space = command.search.space};
+    Outcome outcome{.found = std::vector<FoundInImage>(count),
+                    .space = command.search.space,
+                    .lost = std::vector<std::uint8_t>(count, 0)};
     std::mutex lacks_used;
     std::map<std::string, std::size_t> lacks;
     InOrder told;
     ProgressLine progress;
     searcher.pool.for_each(count, [&](std::size_t i, unsigned worker) {
         const ism::DatasetImage& image = input.dataset.images[i];
-        const auto frame = frame_of(input, i);
+        const auto frame = frame_if_there(input, i, command.skip_bad);
+        if (!frame) {
+            outcome.lost[i] = 1;
+            if (line != nullptr) told.add(i, "");
+            return;
+        }
         {
             const std::lock_guard lock(lacks_used);
             ++lacks[lack_of(*frame, image)];
@@ -374,7 +412,7 @@ void sum_up_data(const DetectCommand& command, const DetectInput& input, const O
 
 void run_detect(const DetectCommand& command) {
     const Stopwatch watch;
-    const ImageList list(command.images);
+    ImageList list(command.images);
     ism::expect(command.depth.empty() || list.images().size() == 1, "--depth", "one image",
                 list.images().size());
     ism::expect(command.search.turns == 1 || command.search.space != metric_space, "--turns",
@@ -382,7 +420,8 @@ void run_detect(const DetectCommand& command) {
     check_outputs(command, list);
     Overlays overlays;
     if (command.show) overlays.beside = overlay_files(list.images());
-    const DetectInput input = read_detect_input(command, list);
+    DetectInput input = read_detect_input(command, list);
+    if (input.only) list.drop_temporary();
     check_not_labels(input.dataset, std::array{command.results, command.json, command.report});
     add_overlays(overlays, command, input);
 
@@ -390,6 +429,7 @@ void run_detect(const DetectCommand& command) {
     Searcher searcher(input.model, command, input.dataset.images.size());
     Outcome outcome = search_images(searcher, command, input, overlays);
     outcome.search_seconds = search_watch.seconds();
+    leave_out_lost(input, outcome);
 
     write_outcome(command, outcome);
     if (!command.report.empty()) write_report(searcher, command, input, outcome);

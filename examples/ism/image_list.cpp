@@ -62,6 +62,10 @@ ImageList::ImageList(std::span<const std::string> arguments) {
 }
 
 ImageList::~ImageList() {
+    drop_temporary();
+}
+
+void ImageList::drop_temporary() {
     std::error_code ignored;
     if (!temporary_.empty()) fs::remove_all(temporary_.parent_path(), ignored);
 }
@@ -75,10 +79,7 @@ std::string ImageList::told(std::string message) const {
 }
 
 void ImageList::add(const fs::path& file) {
-    const auto same = [&](const NamedImage& image) {
-        return image.file.lexically_normal() == file.lexically_normal();
-    };
-    if (std::none_of(images_.begin(), images_.end(), same)) images_.push_back({file, file.string()});
+    if (known_.insert(file.lexically_normal()).second) images_.push_back({file, file.string()});
 }
 
 void ImageList::add_standard_input() {
@@ -127,14 +128,15 @@ void ImageList::leave_out_depth() {
 }
 
 std::vector<fs::path> overlay_files(std::span<const NamedImage> images) {
-    std::vector<fs::path> inputs, files;
-    std::set<fs::path> taken;
+    std::set<fs::path> inputs, taken, folders;
     for (const NamedImage& image : images) {
         ism::expect<ism::FileError>(image.name != standard_input, "--show", "files to write beside",
                                     "standard input");
-        inputs.push_back(image.file);
+        inputs.insert(image.file.lexically_normal());
     }
-    for (const fs::path& input : inputs) {
+    std::vector<fs::path> files;
+    for (const NamedImage& image : images) {
+        const fs::path& input = image.file;
         fs::path file = input.parent_path() / input.stem();
         file += overlay_ending;
         if (!taken.insert(file.lexically_normal()).second) {
@@ -142,12 +144,11 @@ std::vector<fs::path> overlay_files(std::span<const NamedImage> images) {
             file += overlay_ending;
             taken.insert(file.lexically_normal());
         }
-        for (const fs::path& other : inputs)
-            ism::expect<ism::FileError>(
-                other.lexically_normal() != file.lexically_normal(), "--show",
-                ism::lazy_text("no image that is named as what it writes beside '", input.string(), "'"),
-                ism::lazy_text("'", other.string(), "'"));
-        check_output(file, inputs);
+        ism::expect<ism::FileError>(
+            !inputs.contains(file.lexically_normal()), "--show",
+            ism::lazy_text("no image that is named as what it writes beside '", input.string(), "'"),
+            ism::lazy_text("'", file.string(), "'"));
+        if (folders.insert(file.parent_path()).second) check_output(file, {});
         files.push_back(std::move(file));
     }
     return files;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,6 +34,8 @@ public:
     [[nodiscard]] const std::vector<NamedImage>& images() const { return images_; }
     /// A message with "standard input" in place of the temporary file.
     [[nodiscard]] std::string told(std::string message) const;
+    /// Removes the temporary file, which nobody reads any more.
+    void drop_temporary();
 
 private:
     void add(const std::filesystem::path& file);
@@ -42,6 +45,7 @@ private:
     void leave_out_depth();
 
     std::vector<NamedImage> images_;
+    std::set<std::filesystem::path> known_;  // files, in normal form
     std::filesystem::path temporary_;
 };
 

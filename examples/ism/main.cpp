@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <limits>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -392,6 +393,9 @@ int main(int argc, char** argv) {
         return app.exit(done);  // --help, --version
     } catch (const CLI::ParseError& error) {
         return fail(program::refusal_text(error, arguments));
+    } catch (const std::bad_alloc&) {
+        return fail(
+            "memory: expected enough, got too little; smaller or fewer images, or --threads 1, take less");
     } catch (const std::exception& error) {
         return fail(error.what());
     }

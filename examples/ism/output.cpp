@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -50,17 +51,17 @@ OverlayFiles::OverlayFiles(fs::path folder, const ism::Dataset& dataset) : folde
                 ism::file_text(image.file));
     }
     std::set<std::string> taken;
+    std::map<std::string, int> numbers;  // given last to images of a name
     for (const ism::DatasetImage& image : dataset.images) {
         const std::string base = image.file.stem().string();
         std::string stem = base;
+        int& number = numbers.try_emplace(base, 1).first->second;
         const auto is_taken = [&] {
             const auto files = files_of(stem);
             return std::any_of(files.begin(), files.end(), [&](const auto& f) { return taken.contains(f); });
         };
-        for (int number = 2; is_taken(); ++number) stem = ism::join_text(base, "-", number);
-        for (const std::string& file : files_of(stem)) {
-            taken.insert(file);
-        }
+        while (is_taken()) stem = ism::join_text(base, "-", ++number);
+        for (const std::string& file : files_of(stem)) taken.insert(file);
         stems_.push_back(std::move(stem));
     }
 }

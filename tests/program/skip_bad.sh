@@ -51,3 +51,14 @@ says "mask: expected at least one figure pixel, got none" stderr.txt
 "$ism" train --data toys/labels.json -o fewer --skip-bad --no-templates --no-depth >train.txt 2>/dev/null
 says "images       24" train.txt
 says "objects      22" train.txt
+
+# What goes missing while others are searched is left out as well; where all was searched before it could, again.
+mkdir rolling
+lost_one() {
+    for number in $(seq 10 49); do ln -f toys/train/train-0023.png rolling/$number.png; done
+    "$ism" detect --model whole rolling --threads 1 --skip-bad --min-score 0 --json - 2>lost.err |
+        (head -1 >/dev/null; rm rolling/49.png; cat >/dev/null)
+    grep -qF "skipped: file 'rolling/49.png'" lost.err
+}
+lost_one || lost_one || lost_one || lost_one || fail "an image that went missing: $(cat lost.err)"
+says "in 39 images, 1 skipped" lost.err

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -51,7 +52,7 @@ public:
     /// makes the call. Threads take indices as they come, so a body may write only what belongs to its i, or
     /// to its worker for the duration of the call; then the result is the same for any number of threads.
     /// @throws whatever `body` throws for the smallest i that throws; calls not yet begun are dropped. Error
-    /// where a loop of this pool is running already.
+    /// where a loop of this pool is running already, or the system has no more threads.
     template <Callable<std::size_t, unsigned> Body>
     void for_each(std::size_t count, const Body& body) {
         run(
@@ -95,14 +96,23 @@ private:
         count_ = count;
         next_ = 0;
         for (unsigned worker = 1; worker < size_; ++worker)
-            if (std::thread& other = others_[worker - 1]; !other.joinable())
-                other = std::thread([this, worker, round = round_.load()] { serve(worker, round); });
+            if (!others_[worker - 1].joinable()) start(worker);
         working_ = size_ - 1;
         round_.fetch_add(1);
         round_.notify_all();
         work(0);
         for (unsigned left = working_; left != 0; left = working_) wait_while(working_, left);
         rethrow_first();
+    }
+
+    void start(unsigned worker) {
+        try {
+            others_[worker - 1] =
+                std::thread([this, worker, round = round_.load()] { serve(worker, round); });
+        } catch (const std::system_error& error) {
+            throw Error(join_text("threads: expected the system to give ", size_, ", got ", worker, " (",
+                                  error.what(), ")"));
+        }
     }
 
     /// Loops follow each other closely: spins for some microseconds before it sleeps.
