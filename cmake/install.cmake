@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The ism authors
 # SPDX-License-Identifier: MIT
 
-# `cmake --install <build>` gives a package: find_package(ism 0.2) → ism::ism.
+# `cmake --install <build>` gives a package: find_package(ism 0.3) → ism::ism.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

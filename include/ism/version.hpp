@@ -4,7 +4,7 @@
 
 // The one place of the version; the build system reads these three lines.
 #define ISM_VERSION_MAJOR 0
-#define ISM_VERSION_MINOR 2
+#define ISM_VERSION_MINOR 3
 #define ISM_VERSION_PATCH 0
 
 #include <compare>
@@ -24,7 +24,7 @@ inline constexpr Version version{ISM_VERSION_MAJOR, ISM_VERSION_MINOR, ISM_VERSI
 
 #define ISM_DETAIL_TEXT(x) #x
 #define ISM_DETAIL_JOIN(a, b, c) ISM_DETAIL_TEXT(a) "." ISM_DETAIL_TEXT(b) "." ISM_DETAIL_TEXT(c)
-/// @brief The same as text, "0.2.0" say.
+/// @brief The same as text, "0.3.0" say.
 inline constexpr char version_text[] =
     ISM_DETAIL_JOIN(ISM_VERSION_MAJOR, ISM_VERSION_MINOR, ISM_VERSION_PATCH);
 #undef ISM_DETAIL_JOIN

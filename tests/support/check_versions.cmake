@@ -12,3 +12,9 @@ foreach(file "CHANGELOG.md|\n## ([0-9.]+)" "CITATION.cff|\nversion: ([0-9.]+)" "
         message(FATAL_ERROR "${name}: expected version ${VERSION} first, got '${CMAKE_MATCH_1}'")
     endif()
 endforeach()
+# What users are told to ask for is the same but for the last number.
+string(REGEX REPLACE "\\.[0-9]+$" "" asked "${VERSION}")
+file(READ "${ROOT}/docs/bridges.md" text)
+if(NOT text MATCHES "find_package\\(ism ([0-9.]+)" OR NOT CMAKE_MATCH_1 STREQUAL asked)
+    message(FATAL_ERROR "docs/bridges.md: expected find_package(ism ${asked} …), got '${CMAKE_MATCH_1}'")
+endif()

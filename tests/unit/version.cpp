@@ -14,7 +14,7 @@ TEST_CASE("the version as numbers, as text and as macros is one") {
                              std::to_string(ism::version.patch_number);
     CHECK(text == ism::version_text);
     CHECK(text == ISM_PROJECT_VERSION);  // what the build system read
-    CHECK(ism::version >= ism::Version{0, 2, 0});
+    CHECK(ism::version >= ism::Version{0, 3, 0});
 }
 
 TEST_CASE("the development machine has the libraries of every header") {
