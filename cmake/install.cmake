@@ -8,8 +8,20 @@ include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/ism")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/ism" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
         COMPONENT ism_development FILES_MATCHING PATTERN "*.hpp")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/licenses/ism"
-        COMPONENT ism_development)
+
+# ism_install_copyright(<component> <package> [<library>...]): our licence and those of the libraries that are compiled in, from
+# packaging/licenses, where Debian looks for it.
+function(ism_install_copyright component package)
+    file(READ "${PROJECT_SOURCE_DIR}/LICENSE" text)
+    foreach(library IN LISTS ARGN)
+        file(READ "${PROJECT_SOURCE_DIR}/packaging/licenses/${library}" licence)
+        string(APPEND text "\n--\n\nCompiled in: ${licence}")
+    endforeach()
+    set(file "${PROJECT_BINARY_DIR}/copyright/${package}/copyright")
+    file(WRITE "${file}" "${text}")
+    install(FILES "${file}" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${package}" COMPONENT ${component})
+endfunction()
+ism_install_copyright(ism_development libism-dev)
 
 install(TARGETS ism EXPORT ism_targets)
 install(EXPORT ism_targets FILE ism-targets.cmake NAMESPACE ism:: DESTINATION "${package_dir}"
