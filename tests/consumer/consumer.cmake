@@ -63,7 +63,7 @@ foreach(case "catch2;Catch2;-DISM_BUILD_TESTS=OFF;-DISM_BUILD_BENCHMARKS=OFF" "c
 endforeach()
 add_test(NAME consumer/debian
          COMMAND "${CMAKE_COMMAND}" "-DCPACK=${CMAKE_CPACK_COMMAND}" "-DISM_BUILD=${CMAKE_BINARY_DIR}" "-DSCRATCH=${test_build_dir}/consumer/debian"
-                 "-DVERSION=${PROJECT_VERSION}" "-DPROGRAM=$<TARGET_EXISTS:ism_program>" "-DPYTHON=$<TARGET_EXISTS:ism_python>"
+                 "-DVERSION=${PROJECT_VERSION}" "-DPROGRAM=$<TARGET_EXISTS:ism_program>" "-DPYTHON=$<TARGET_EXISTS:ism_python>" "-DNATIVE=${ISM_NATIVE}"
                  -P "${test_dir}/consumer/debian.cmake")
 set_tests_properties(consumer/debian PROPERTIES LABELS consumer TIMEOUT 300 SKIP_REGULAR_EXPRESSION "skipped: ")
 add_test(NAME rules/versions COMMAND "${CMAKE_COMMAND}" "-DROOT=${PROJECT_SOURCE_DIR}" "-DVERSION=${PROJECT_VERSION}"
