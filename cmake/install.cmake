@@ -23,7 +23,7 @@ function(ism_install_copyright component package)
 endfunction()
 ism_install_copyright(ism_development libism-dev)
 
-install(TARGETS ism EXPORT ism_targets)
+install(TARGETS ism EXPORT ism_targets INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(EXPORT ism_targets FILE ism-targets.cmake NAMESPACE ism:: DESTINATION "${package_dir}"
         COMPONENT ism_development)
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/ism-config.cmake.in" "${PROJECT_BINARY_DIR}/ism-config.cmake"
@@ -35,8 +35,16 @@ install(FILES "${PROJECT_BINARY_DIR}/ism-config.cmake" "${PROJECT_BINARY_DIR}/is
               "${PROJECT_SOURCE_DIR}/cmake/ism_dependencies.cmake"
         DESTINATION "${package_dir}" COMPONENT ism_development)
 
-# For pkg-config; -std=c++20 is the program's own choice. It finds the headers from where it lies itself.
+# For pkg-config; -std=c++20 is the program's own choice. It finds the headers from where it lies itself, unless that is
+# outside of the prefix.
 set(pkgconfig_dir "${CMAKE_INSTALL_DATADIR}/pkgconfig")
-file(RELATIVE_PATH ism_prefix_from_pc "/prefix/${pkgconfig_dir}" "/prefix")
+if(IS_ABSOLUTE "${pkgconfig_dir}")
+    set(ism_pc_prefix "${CMAKE_INSTALL_PREFIX}")
+else()
+    file(RELATIVE_PATH ism_pc_prefix "/prefix/${pkgconfig_dir}" "/prefix")
+    set(ism_pc_prefix "\${pcfiledir}/${ism_pc_prefix}")
+endif()
+set(ism_pc_includedir "\${prefix}")
+cmake_path(APPEND ism_pc_includedir "${CMAKE_INSTALL_INCLUDEDIR}") # which an absolute path replaces
 configure_file("${PROJECT_SOURCE_DIR}/cmake/ism.pc.in" "${PROJECT_BINARY_DIR}/ism.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/ism.pc" DESTINATION "${pkgconfig_dir}" COMPONENT ism_development)

@@ -10,6 +10,11 @@ foreach(way find_package add_subdirectory fetch_content)
                      -P "${test_dir}/consumer/run.cmake")
     set_tests_properties(consumer/${way} PROPERTIES LABELS consumer TIMEOUT 600 COST 60 SKIP_REGULAR_EXPRESSION "skipped: ")
 endforeach()
+add_test(NAME consumer/install_dirs
+         COMMAND "${CMAKE_COMMAND}" "-DISM_SOURCE=${PROJECT_SOURCE_DIR}" "-DSCRATCH=${test_build_dir}/consumer/install_dirs"
+                 "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DGENERATOR=${CMAKE_GENERATOR}" "-DVERSION=${PROJECT_VERSION}"
+                 -P "${test_dir}/consumer/install_dirs.cmake")
+set_tests_properties(consumer/install_dirs PROPERTIES LABELS consumer TIMEOUT 300)
 # Programs compiled by hand.
 set(hints "$<TARGET_PROPERTY:ism_include_dirs,INCLUDE_DIRECTORIES>")
 foreach(way include_path single_header pkg_config own_libraries same_bits)
