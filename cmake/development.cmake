@@ -11,6 +11,15 @@ if(PROJECT_IS_TOP_LEVEL)
 endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
 
+# ism_group(<name>): a target ism_<name> of several programs, called <name> too where no other project can have one called so.
+function(ism_group name)
+    add_custom_target(ism_${name})
+    if(PROJECT_IS_TOP_LEVEL)
+        add_custom_target(${name})
+        add_dependencies(${name} ism_${name})
+    endif()
+endfunction()
+
 add_library(ism_dev_options INTERFACE)
 target_compile_options(ism_dev_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow)
 if(ISM_WERROR)

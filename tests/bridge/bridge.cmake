@@ -4,7 +4,7 @@
 # ism/adapt/NAME.hpp beside the real library: tests/bridge/NAME.cpp, one program each. Where the library is not installed
 # (scripts/install_dependencies bridge-tests) the test is told as skipped.
 add_custom_target(bridge_tests)
-add_dependencies(tested bridge_tests)
+add_dependencies(ism_tested bridge_tests)
 function(ism_bridge_test name package)
     if(NOT ${package}_FOUND)
         add_test(NAME bridge/${name} COMMAND "${CMAKE_COMMAND}" -E echo "skipped: ${package} is not installed")

@@ -66,6 +66,11 @@ foreach(case "catch2;Catch2;-DISM_BUILD_TESTS=OFF;-DISM_BUILD_BENCHMARKS=OFF" "c
     endif()
     set_tests_properties(configure/without_${name} PROPERTIES LABELS consumer PASS_REGULAR_EXPRESSION "${says}")
 endforeach()
+# All of it within a project that has targets of the same names.
+add_test(NAME configure/within_another
+         COMMAND "${CMAKE_COMMAND}" -S "${test_dir}/consumer/within_another" -B "${test_build_dir}/configure/within_another" -G "${CMAKE_GENERATOR}"
+                 "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" -DISM_BENCHMARK_PEERS=OFF "-DISM_SOURCE=${PROJECT_SOURCE_DIR}")
+set_tests_properties(configure/within_another PROPERTIES LABELS consumer)
 add_test(NAME consumer/debian
          COMMAND "${CMAKE_COMMAND}" "-DCPACK=${CMAKE_CPACK_COMMAND}" "-DISM_BUILD=${CMAKE_BINARY_DIR}" "-DSCRATCH=${test_build_dir}/consumer/debian"
                  "-DVERSION=${PROJECT_VERSION}" "-DPROGRAM=$<TARGET_EXISTS:ism_program>" "-DPYTHON=$<TARGET_EXISTS:ism_python>" "-DNATIVE=${ISM_NATIVE}"
