@@ -27,7 +27,7 @@ std::vector<float> synthetic_points(std::size_t count, std::size_t dimension) {
 
 }  // namespace
 
-TEST_CASE("clustering by size", "[!benchmark]") {
+TEST_CASE("clustering by size", "[benchmark]") {
     constexpr std::size_t dimension = 128;
     for (const std::size_t count : {500u, 2000u, 8000u}) {
         const std::vector<float> all = synthetic_points(count + 500, dimension);

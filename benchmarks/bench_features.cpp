@@ -35,7 +35,7 @@ ism::GrayImage cloud(int width, int height) {
 
 }  // namespace
 
-TEST_CASE("features by stage", "[!benchmark]") {
+TEST_CASE("features by stage", "[benchmark]") {
     for (const auto& [width, height] : {std::pair{320, 240}, {640, 480}, {1280, 960}}) {
         const std::string size = ism::join_text(" ", width, "x", height);
         const ism::GrayImage image = cloud(width, height);

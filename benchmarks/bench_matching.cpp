@@ -29,7 +29,7 @@ ism::Descriptors<float> random_rows(std::size_t count, ism::Random& random) {
 
 }  // namespace
 
-TEST_CASE("matching by number of words", "[!benchmark]") {
+TEST_CASE("matching by number of words", "[benchmark]") {
     ism::Random random(1);
     const auto descriptors = random_rows(960, random);
     ism::ThreadPool pool(1);

@@ -15,7 +15,7 @@
 #include "ism/vote/cast.hpp"
 #include "ism/vote/strongest_modes.hpp"
 
-TEST_CASE("voting by number of classes", "[!benchmark]") {
+TEST_CASE("voting by number of classes", "[benchmark]") {
     constexpr std::size_t total = 16384;
     ism::ThreadPool pool(1);
     for (const std::uint32_t classes : {1u, 16u, 128u, 1024u}) {
