@@ -11,6 +11,7 @@
 #include <fstream>
 #include <string>
 
+#include "support/options.hpp"
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -100,7 +101,11 @@ Cost build_program() {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    bench::Options command_line(
+        "Seconds and memory that compiling small programs takes, and the processor seconds of the program "
+        "ism.");
+    if (const auto code = command_line.parse(argc, argv)) return *code;
     const std::filesystem::path source =
         std::filesystem::temp_directory_path() / ("ism_compile_cost_" + std::to_string(getpid()) + ".cpp");
     bool succeeded = true;
@@ -108,7 +113,7 @@ int main() {
                 "asked");
     for (const Program& program : programs) {
         std::ofstream(source) << program.source;
-        const Cost cost = run(std::string(ISM_COMPILER " -std=c++20 " ISM_INCLUDES " -c -o /dev/null ") +
+        const Cost cost = run(std::string("'" ISM_COMPILER "' -std=c++20 " ISM_INCLUDES " -c -o /dev/null ") +
                               program.flags + " '" + source.string() + "'");
         succeeded = succeeded && cost.succeeded;
         std::printf("%-48s %8.2f %8.0f %8.2f %8.0f %8.0f%s\n", program.what, cost.seconds,
