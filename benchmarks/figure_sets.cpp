@@ -1,21 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
 
-// Sets of images that scripts/figures measures on, made from those of the data folder:
-// - figure_sets with-background SET.json FOLDER OUT.json: and the photographs of a folder, without objects
-// - figure_sets only-background SET.json FOLDER OUT.json: these alone, with the classes of the set
-// - figure_sets rescaled SET.json FOLDER: each image at a random size, in FOLDER with set.json
-// - figure_sets scenes SET.json FOLDER: nine images at a time, by chance, side by side in one picture of 1440
-// × 1080
-// - figure_sets turned SET.json FOLDER: each image turned at random about its middle, in FOLDER with set.json
-// - figure_sets without-object SET.json K TRAIN.json TEST.json: object K of each class (instance, or car7-…)
-//   apart from the others
-// - figure_sets random-part SET.json SEED OUT.json: four of five images, by chance
-// - figure_sets joint SET.json OTHER.json OUT.json: the images of both, classes of one name as one; by colour
-// - figure_sets without-masks SET.json OUT.json: with the boxes of the labels alone
+// Sets of images that scripts/figures measures on, made from those of the data folder; --help tells of which
+// kinds.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -25,6 +17,8 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -211,26 +205,34 @@ struct Turn {
     return {end, name.substr(0, end)};
 }
 
+/// A number of the command line.
+[[nodiscard]] std::uint64_t whole_number(const char* what, const std::string& text, std::uint64_t least) {
+    std::uint64_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number);
+    ism::expect(read.ec == std::errc() && read.ptr == end && number >= least, what,
+                ism::lazy_text("a whole number, ", least, " or more"), ism::lazy_text("'", text, "'"));
+    return number;
+}
+
 /// The images of the K-th object of each class that has so many, counted from 1; or all others.
-[[nodiscard]] ism::Dataset of_object(ism::Dataset set, const std::string& k, bool this_one) {
+[[nodiscard]] ism::Dataset of_object(ism::Dataset set, std::uint64_t k, bool this_one) {
     std::map<std::uint32_t, std::set<std::pair<std::size_t, std::string>>> objects;
     for (const ism::DatasetImage& image : set.images)
         objects[image.objects.at(0).class_index].insert(object_of(image));
     std::set<std::pair<std::size_t, std::string>> chosen;
     for (const auto& [class_index, names] : objects) {
-        const std::size_t at = std::stoul(k);
-        ism::expect(at >= 1, "number of an object", "1 or more", at);
-        if (at <= names.size()) chosen.insert(*std::next(names.begin(), std::ptrdiff_t(at - 1)));
+        if (k <= names.size()) chosen.insert(*std::next(names.begin(), std::ptrdiff_t(k - 1)));
     }
-    ism::expect(!chosen.empty(), "number of an object", "one that a class has", k);
+    ism::expect(!chosen.empty(), "K", "the number of an object that a class has", k);
     std::erase_if(set.images, [&](const ism::DatasetImage& image) {
         return chosen.contains(object_of(image)) != this_one;
     });
     return set;
 }
 
-[[nodiscard]] ism::Dataset random_part(ism::Dataset set, const std::string& seed) {
-    ism::Random random(std::stoull(seed));
+[[nodiscard]] ism::Dataset random_part(ism::Dataset set, std::uint64_t seed) {
+    ism::Random random(seed);
     std::vector<ism::DatasetImage>& images = set.images;
     const std::size_t less = images.size() / 5;
     for (std::size_t i = 0; i < less; ++i)
@@ -261,20 +263,58 @@ struct Turn {
     return set;
 }
 
+struct Kind {
+    std::string_view name, arguments, what;
+};
+constexpr std::array<Kind, 9> kinds = {{
+    {"with-background", "SET.json FOLDER OUT.json", "and the photographs of a folder, without objects"},
+    {"only-background", "SET.json FOLDER OUT.json", "these alone, with the classes of the set"},
+    {"rescaled", "SET.json FOLDER", "each image at a random size, in FOLDER with set.json"},
+    {"scenes", "SET.json FOLDER", "nine images at a time, by chance, side by side in one of 1440 × 1080"},
+    {"turned", "SET.json FOLDER", "each image turned at random about its middle, in FOLDER with set.json"},
+    {"without-object", "SET.json K TRAIN.json TEST.json",
+     "object K of each class (instance, or car7-…) apart from the others"},
+    {"random-part", "SET.json SEED OUT.json", "four of five images, by chance"},
+    {"joint", "SET.json OTHER.json OUT.json", "the images of both, classes of one name as one; by colour"},
+    {"without-masks", "SET.json OUT.json", "with the boxes of the labels alone"},
+}};
+
+[[nodiscard]] const Kind& kind_of(const std::vector<std::string>& words) {
+    std::string names;
+    for (const Kind& kind : kinds) names += (names.empty() ? "" : ", ") + std::string(kind.name);
+    const std::string what = words.empty() ? "" : words[0];
+    const auto* const kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == what; });
+    ism::expect(kind != kinds.end(), "kind of set", ism::lazy_text("one of ", names),
+                ism::lazy_text("'", what, "'"));
+    const auto count = std::size_t(std::count(kind->arguments.begin(), kind->arguments.end(), ' ') + 1);
+    ism::expect(words.size() == count + 1, what,
+                ism::lazy_text(count, " arguments, ", std::string(kind->arguments)), words.size() - 1);
+    return *kind;
+}
+
+int help() {
+    std::puts("figure_sets KIND ARGUMENTS: a set of images made from another\n");
+    for (const Kind& kind : kinds)
+        std::printf("  %s %s\n      %s\n", kind.name.data(), kind.arguments.data(), kind.what.data());
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
     const std::vector<std::string> words(argv + 1, argv + argc);
-    const std::string what = words.empty() ? "" : words[0];
-    const bool three = what == "rescaled" || what == "scenes" || what == "turned" || what == "without-masks";
-    const std::size_t count = what == "without-object" ? 5 : three ? 3 : 4;
-    ism::expect(words.size() == count, "arguments", "those of the head of figure_sets.cpp", words.size());
+    if (!words.empty() && (words[0] == "--help" || words[0] == "-h")) return help();
+    const std::string_view what = kind_of(words).name;
+    const std::uint64_t number = what == "without-object" ? whole_number("K", words[2], 1)
+                                 : what == "random-part"  ? whole_number("SEED", words[2], 0)
+                                                          : 0;
     ism::Dataset set = ism::read_dataset(words[1]);
     if (what == "without-object") {
-        ism::write_dataset(words[3], of_object(set, words[2], false));
-        ism::write_dataset(words[4], of_object(std::move(set), words[2], true));
+        ism::write_dataset(words[3], of_object(set, number, false));
+        ism::write_dataset(words[4], of_object(std::move(set), number, true));
     } else if (what == "random-part") {
-        ism::write_dataset(words[3], random_part(std::move(set), words[2]));
+        ism::write_dataset(words[3], random_part(std::move(set), number));
     } else if (what == "joint") {
         ism::write_dataset(words[3], joint(std::move(set), ism::read_dataset(words[2])));
     } else if (what == "without-masks") {
