@@ -182,5 +182,5 @@ int main(int argc, char** argv) try {
     if (!json.empty()) bench::write_json(json, rows);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "adding_classes: %s\n", error.what());
-    return 1;
+    return 2;
 }

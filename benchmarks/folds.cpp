@@ -168,5 +168,5 @@ int main(int argc, char** argv) try {
     std::fputs(ism::align_columns(cells).c_str(), stdout);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "folds: %s\n", error.what());
-    return 1;
+    return 2;
 }

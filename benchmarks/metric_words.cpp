@@ -180,5 +180,5 @@ int main(int argc, char** argv) try {
     }
 } catch (const std::exception& error) {
     std::fprintf(stderr, "metric_words: %s\n", error.what());
-    return 1;
+    return 2;
 }

@@ -222,7 +222,7 @@ int main(int argc, char** argv) try {
 
     std::vector<fs::path> sequences;
     if (fs::exists(data / "H1to2p")) sequences.push_back(data);
-    for (const auto& entry : fs::directory_iterator(data))
+    for (const auto& entry : fs::directory_iterator(bench::data_file(data)))
         if (fs::exists(entry.path() / "H1to2p")) sequences.push_back(entry.path());
     std::sort(sequences.begin(), sequences.end());
     ism::expect(!sequences.empty(), data.string(), "folders with img1 and H1to2p", "none");

@@ -181,5 +181,5 @@ int main(int argc, char** argv) try {
     if (!csv.empty()) ism::write_file(csv, lines);
 } catch (const std::exception& error) {
     std::fprintf(stderr, "peers_detection: %s\n", error.what());
-    return 1;
+    return 2;
 }

@@ -13,7 +13,14 @@ std::filesystem::path data_folder() {
     return folder != nullptr && *folder != '\0' ? folder : ISM_DEFAULT_DATA;
 }
 
+std::filesystem::path data_file(const std::filesystem::path& file) {
+    ism::expect(std::filesystem::exists(file), file.string(),
+                "public data there; ISM_DATA or --data names its folder", "none");
+    return file;
+}
+
 ism::Dataset read_set(const std::filesystem::path& file) {
+    data_file(file);
     return ism::read_dataset(file);
 }
 

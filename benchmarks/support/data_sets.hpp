@@ -13,6 +13,10 @@ namespace bench {
 /// @brief Where the real images are: the environment's ISM_DATA, else the project's ../shared/data.
 [[nodiscard]] std::filesystem::path data_folder();
 
+/// @brief The same, where it is there.
+/// @throws ism::Error, telling how the folder of the data is named, else
+std::filesystem::path data_file(const std::filesystem::path& file);
+
 /// @brief ism::read_dataset(), which data_sets.cpp alone compiles.
 [[nodiscard]] ism::Dataset read_set(const std::filesystem::path& file);
 

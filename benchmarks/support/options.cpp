@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/options.hpp"
 
+#include <algorithm>
+#include <cstdio>
 #include <map>
 
 #include <CLI/CLI.hpp>
@@ -59,8 +61,14 @@ void Options::add(const std::string& name, std::vector<std::size_t>& values, con
 std::optional<int> Options::parse(int argc, char** argv) {
     try {
         app_->parse(argc, argv);
+    } catch (const CLI::Success& done) {
+        return app_->exit(done);  // --help
     } catch (const CLI::ParseError& error) {
-        return app_->exit(error);
+        const std::string program = std::filesystem::path(argv[0]).filename().string();
+        std::string text = error.what();
+        std::replace(text.begin(), text.end(), '\n', ' ');
+        std::fprintf(stderr, "%s: %s; --help tells more\n", program.c_str(), text.c_str());
+        return 2;
     }
     return std::nullopt;
 }

@@ -47,7 +47,7 @@ public:
     void add(const std::string& name, std::vector<std::size_t>& values, const std::string& help,
              Limits limits = {});
 
-    /// @brief The exit code, where the program is to end: after --help, or a mistake, which is told.
+    /// @brief The exit code, where the program is to end: 0 after --help, 2 after a mistake, told in a line.
     [[nodiscard]] std::optional<int> parse(int argc, char** argv);
 
 private:

@@ -56,7 +56,8 @@ using ByteImage = ism::Image<std::uint8_t>;
     if (!images.empty()) return images;
     for (const char* sequence : {"bikes", "boat", "graf", "leuven", "ubc"})
         for (const char* name : {"img1.png", "img4.png"})
-            images.push_back(crop(read_bytes(data_folder() / "oxford-affine" / sequence / name), 640, 480));
+            images.push_back(
+                crop(read_bytes(data_file(data_folder() / "oxford-affine" / sequence / name)), 640, 480));
     return images;
 }
 
