@@ -42,7 +42,7 @@ table { border-collapse: collapse; font-size: .93rem; font-variant-numeric: tabu
 caption { text-align: left; color: var(--soft); padding-bottom: .3rem; }
 th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
-th { font-weight: 600; }
+th { font-weight: 600; white-space: normal; vertical-align: bottom; }
 .facts td { white-space: normal; }
 figure { margin: 0 0 1rem; max-width: 100%; }
 figcaption { color: var(--soft); font-size: .9rem; line-height: 1.35; margin-top: .3rem; overflow-wrap: anywhere; }
