@@ -7,7 +7,11 @@ source "$here/support.bash"
 # The experiments of the paper, on a few images of each set, end in a page that needs no other file.
 reproduce=$(dirname "$ism")/reproduce
 refused_in_a_line "expected a folder of data sets" "$reproduce" nowhere -o out
+mkdir nothing
+refused_in_a_line "nothing/osd/train.json: expected a file of the data, got none" "$reproduce" nothing -o out --depth
 need_data
+touch a_file
+refused_in_a_line "folder 'a_file': expected a folder, got a file" "$reproduce" "$data" -o a_file --quick
 "$reproduce" "$data" -o page --quick --threads 2 >figures.txt
 for line in '^separate +2 .* 27[0-9]{2}$' '^joint +1 .* 45[0-9]{2}$' '^ji3sm3 .* 6[0-9] % ' '^votes and templates \(default\) +[0-9.]+ %'; do
     grep -qE "$line" figures.txt || fail "reproduce: expected a line like $line, got: $(cat figures.txt)"
