@@ -38,7 +38,11 @@ elseif(WAY STREQUAL "single_header")
     step("compile" ${compile} -Og -march=native -Wall -Wextra -Wpedantic -Wshadow -Werror -MMD -MF "${SCRATCH}/read.d" "-I${SCRATCH}/single" "${source}/main.cpp"
          "${source}/second.cpp")
     file(READ "${SCRATCH}/read.d" files)
-    if(files MATCHES "${ISM_SOURCE}/include/" OR NOT files MATCHES "${SCRATCH}/single/ism/ism.hpp")
+    string(REGEX REPLACE "\\\\([ #])" "\\1" files "${files}") # as make reads them
+    string(REPLACE "$$" "$" files "${files}")
+    string(FIND "${files}" "${ISM_SOURCE}/include/" ours)
+    string(FIND "${files}" "${SCRATCH}/single/ism/ism.hpp" single)
+    if(NOT ours EQUAL -1 OR single EQUAL -1)
         message(FATAL_ERROR "consumer by ${WAY}: expected to read one header of ours, got\n${files}")
     endif()
     run()

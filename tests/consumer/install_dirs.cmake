@@ -36,6 +36,7 @@ foreach(case "below;own/headers;own/data" "outside;${SCRATCH}/headers;${SCRATCH}
     if(pkg_config)
         set(ENV{PKG_CONFIG_PATH} "${data}/pkgconfig")
         step("pkg-config, ${name}" "${pkg_config}" --variable=includedir ism)
+        string(REGEX REPLACE "\\\\(.)" "\\1" output "${output}") # as a shell reads it
         cmake_path(SET output NORMALIZE "${output}")
         if(NOT output STREQUAL headers OR NOT EXISTS "${output}/ism/ism.hpp")
             message(FATAL_ERROR "pkg-config, ${name}: expected headers in ${headers}, got '${output}'")

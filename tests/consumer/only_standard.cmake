@@ -10,7 +10,7 @@ execute_process(COMMAND "${COMPILER}" -std=c++20 -E -o "${SCRATCH}/read.ii" "-I$
 if(NOT result EQUAL 0)
     message(FATAL_ERROR "${SOURCE}: expected to find all it includes, got\n${output}")
 endif()
-file(STRINGS "${SCRATCH}/read.ii" files REGEX "^# [0-9]+ \"/.*\" 1") # where a file begins
+file(STRINGS "${SCRATCH}/read.ii" files ENCODING UTF-8 REGEX "^# [0-9]+ \"/.*\" 1") # where a file begins
 list(TRANSFORM files REPLACE "^# [0-9]+ \"(.*)\".*" "\\1")
 set(foreign ${files})
 list(FILTER foreign INCLUDE REGEX "/(Eigen|nlohmann|stb|CLI|catch2|opencv[24]|boost|pcl[-0-9.]*|pybind11)/|nanoflann")
