@@ -74,11 +74,6 @@ std::string spaces_text(std::map<std::string, std::size_t> lacks, bool may_be_me
                      : "jism, for want of " + list_text(wants) + ": no positions, and less is found";
 }
 
-/// Whether an output is standard output.
-bool is_standard_output(const fs::path& file) {
-    return file == "-" || file == "/dev/stdout";
-}
-
 /// Makes sure that all outputs can be written, each to a place of its own.
 void check_outputs(const DetectCommand& command, const ImageList& list) {
     std::vector<fs::path> inputs = {command.model, command.data, command.depth};
@@ -88,13 +83,13 @@ void check_outputs(const DetectCommand& command, const ImageList& list) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const auto& [option, file] = outputs[i];
         if (file.empty()) continue;
-        if (file != "-") check_output(file, inputs);
+        if (i < 2 && file != "-") check_output(file, inputs);
         for (std::size_t j = 0; j < i; ++j)
             ism::expect(
                 outputs[j].second.empty() || outputs[j].second.lexically_normal() != file.lexically_normal(),
                 option, ism::lazy_text("another file than ", outputs[j].first), "the same");
     }
-    ism::expect(command.report != "-", "--report", "a file", "standard output");
+    if (!command.report.empty()) check_page(command.report, inputs, command.page);
 }
 
 void write_output(const fs::path& file, std::string_view text) {

@@ -17,7 +17,8 @@ namespace program {
 
 void run_info(const InfoCommand& command) {
     const std::filesystem::path& path = command.model;
-    if (!command.report.empty()) check_output(command.report, std::array{command.model, command.data});
+    if (!command.report.empty())
+        check_page(command.report, std::array{command.model, command.data}, command.page);
     const ism::Model model = ism::load_model(path);
     if (!command.report.empty()) {
         std::optional<ism::Dataset> data;

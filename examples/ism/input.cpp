@@ -106,6 +106,10 @@ std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
     return told.size();
 }
 
+bool is_standard_output(const fs::path& file) {
+    return file == "-" || file == "/dev/stdout";
+}
+
 void check_output(const fs::path& file, std::span<const fs::path> inputs) {
     const std::string text = ism::file_text(file);
     std::error_code failure;

@@ -63,6 +63,9 @@ private:
 std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
                          const std::function<void(ism::DatasetImage&)>& read);
 
+/// Whether an output is standard output.
+[[nodiscard]] bool is_standard_output(const std::filesystem::path& file);
+
 /// Throws ism::FileError unless a file can be written there: its folder exists and can be written to, and the
 /// file is none of `inputs` and no picture but one of the program's own (NAME.ism.png).
 void check_output(const std::filesystem::path& file, std::span<const std::filesystem::path> inputs);

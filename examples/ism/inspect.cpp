@@ -257,7 +257,7 @@ ism::Report page_of(const ism::Dataset& dataset, const Contents& contents,
 }  // namespace
 
 void run_inspect(const InspectCommand& command) {
-    if (!command.report.empty()) check_output(command.report, std::array{command.data});
+    if (!command.report.empty()) check_page(command.report, std::array{command.data}, command.page);
     ism::Faults faults;
     const ism::Dataset dataset = read_labels(command.data, ism::DatasetPart::train, faults);
     check_not_labels(dataset, std::array{command.report});

@@ -24,6 +24,31 @@ done
 says 'href="linked%20%231-images/1.jpg"' "linked #1.html"
 ! grep -q 'base64' "linked #1.html" || fail "linked pictures are in the page"
 [[ -s "linked #1-images/1.jpg" ]] || fail "linked pictures are not beside the page"
+
+# The folder of linked pictures is the page's own: photos in it are never written over, pictures of an earlier page do not stay.
+mkdir trip-images
+cp toys/test/test-0000.png trip-images/1.png
+for page in trip.html "linked #1"; do  # the second would share the folder of "linked #1.html"
+    refused_in_a_line "expected nothing but pictures of an earlier file '$page', got '" \
+        "$ism" detect --model $model --data toys/test.json -o out --report "$page" --report-images link
+done
+refused_in_a_line "folder 'trip-images': expected nothing but" \
+    "$ism" inspect --data toys/train.json --report trip.html --report-images link
+refused_in_a_line "got '1.png'" "$ism" info $model --report trip.html --report-images link
+cmp trip-images/1.png toys/test/test-0000.png || fail "a photo was written over"
+echo x >plain-images
+refused_in_a_line "expected a folder, got a file" "$ism" info $model --report plain.html --report-images link
+"$ism" inspect --data toys/train.json --report album.html --report-images link >/dev/null
+many=$(ls album-images | wc -l)
+"$ism" detect --model $model toys/test/test-0000.png --report album.html --report-images link >/dev/null 2>&1
+few=$(ls album-images | wc -l)
+((few < many)) || fail "pictures of an earlier page stay: $(ls album-images)"
+(($(grep -c . album-images/made-by-ism.txt) == few)) || fail "the list of pictures is another: $(ls album-images)"
+"$ism" info $model --report album.htm --report-images link >/dev/null
+[[ -d album.htm-images && -s album.htm ]] || fail "album.htm has no page of its own"
+for command in "inspect --data toys/train.json" "info $model"; do
+    refused_in_a_line "--report: expected a file, got standard output" "$ism" $command --report -
+done
 for text in "labelled object" "Mistakes: " "Precision and recall" "mean"; do says "$text" detect.html; done
 says "as it was seen" info.html
 ! grep -q "as it was seen" plain.html || fail "words are shown without a data set"
