@@ -77,12 +77,14 @@ TEST_CASE("Results of other programs are read without what only we write") {
     const TemporaryFolder folder;
     ism::write_file(folder / "r.json", std::string_view(R"([
         {"image_id":1,"category_id":2,"bbox":[1,2,3,4],"score":0.5,"id":9},
-        {"image_id":1,"category_id":2,"score":1,"segmentation":{"size":[3,4],"counts":[4,2,6]}}])"));
+        {"image_id":1,"category_id":2,"score":1,"segmentation":{"size":[3,4],"counts":[4,2,6]}},
+        {"image_id":1,"category_id":2,"score":1,"bbox":[1,2,0,4],"segmentation":[]}])"));
     const std::vector<Result> results = ism::read_results(folder / "r.json");
-    REQUIRE(results.size() == 2);
+    REQUIRE(results.size() == 3);
     CHECK((!results[0].segmentation && !results[0].position_m && std::isnan(results[0].depth_m)));
     CHECK(results[0].scale == 1);
     CHECK(results[1].box == Box{1, 1, 1, 2});
+    CHECK((!results[2].segmentation && results[2].box == Box{1, 2, 0, 4}));
 }
 
 TEST_CASE("Results that make no sense are refused with the place") {
@@ -109,6 +111,13 @@ TEST_CASE("Results that make no sense are refused with the place") {
           ", result 1: probability: expected a number from 0 to 1, got 1.5");
     CHECK(results_error(good + R"(,"position_m":[1,2]}])") ==
           ", result 1: position_m: expected three numbers x, y, z, got an array of 2");
+    CHECK(
+        results_error(good + R"(,"segmentation":[[1,1,5,1,5,5]]}])") ==
+        ", result 1: segmentation: expected run lengths {size, counts}, as results have them, got polygons");
+    CHECK(results_error(head + R"(,"score":1,"bbox":[1,2,-3,4]}])") ==
+          ", result 1: bbox: expected a width and height of 0 or more, got -3x4");
+    CHECK(results_error(head + R"(,"score":1,"segmentation":[]}])") ==
+          ", result 1: bbox: expected a box, or a segmentation to take it from, got neither");
     CHECK(results_error(good + "}]") == "nothing thrown");
 
     const TemporaryFolder folder;

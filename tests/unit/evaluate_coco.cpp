@@ -108,6 +108,16 @@ TEST_CASE("Results with numbers or masks that the data set does not know are ref
     CHECK_THROWS_AS(ism::evaluate(set, good, {.iou_threshold = 1.5}), ism::Error);
 }
 
+TEST_CASE("A result without area finds nothing and is counted") {
+    const std::vector<ism::Result> results{result_of(90, 7, {5, 5, 0, 0}, 0.9),
+                                           result_of(90, 7, {0, 0, 10, 10}, 0.8)};
+    const ism::ClassEvaluation cups = ism::evaluate(two_images(), results).classes[0];
+    CHECK(cups.detections == 2);
+    CHECK(cups.true_positives == 1);
+    CHECK(cups.figures.ap == 0.5);
+    CHECK(ism::evaluate_coco(two_images(), results).classes[0].figures.ap50 == 0.5);
+}
+
 TEST_CASE("An evaluation as JSON keeps the order of classes and writes null for what was not measured") {
     const auto json = nlohmann::ordered_json::parse(ism::to_json(ism::evaluate(two_images(), {})));
     CHECK(json["classes"].begin().key() == "cup");

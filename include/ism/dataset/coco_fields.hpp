@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +20,9 @@
 namespace ism::detail {
 
 /// @brief [x, y, width, height].
-[[nodiscard]] inline Box box_from_json(const Json& value, const std::string& place) {
+/// @param may_be_empty  whether width and height may be 0
+[[nodiscard]] inline Box box_from_json(const Json& value, const std::string& place,
+                                       bool may_be_empty = false) {
     const std::string_view expected = "four numbers x, y, width, height";
     if (!value.is_array() || value.size() != 4) refuse_json(place, "bbox", expected, json_text(value));
     double numbers[4];
@@ -27,8 +30,11 @@ namespace ism::detail {
         numbers[i] = to_number(value[i], "bbox", place);
         if (std::abs(numbers[i]) > 1e9) refuse_json(place, "bbox", "pixels up to 1e9", json_text(value[i]));
     }
-    if (!(numbers[2] > 0 && numbers[3] > 0))
-        refuse_json(place, "bbox", "a width and height above 0", join_text(numbers[2], "x", numbers[3]));
+    const double shorter = std::min(numbers[2], numbers[3]);
+    if (shorter < 0 || (shorter == 0 && !may_be_empty))
+        refuse_json(place, "bbox",
+                    may_be_empty ? "a width and height of 0 or more" : "a width and height above 0",
+                    join_text(numbers[2], "x", numbers[3]));
     return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 

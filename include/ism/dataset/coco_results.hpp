@@ -46,10 +46,13 @@ namespace detail {
                   .category_id = integer_member(record, "category_id", place),
                   .box = {},
                   .score = number_member(record, "score", place)};
-    if (const Json* segmentation = optional_member(record, "segmentation", place))
+    const Json* segmentation = optional_member(record, "segmentation", place);
+    if (segmentation != nullptr && segmentation->is_array() && !segmentation->empty())
+        refuse_json(place, "segmentation", "run lengths {size, counts}, as results have them", "polygons");
+    if (segmentation != nullptr && !segmentation->is_array())
         result.segmentation = rle_from_json(*segmentation, place);
     if (const Json* box = optional_member(record, "bbox", place)) {
-        result.box = box_from_json(*box, place);
+        result.box = box_from_json(*box, place, true);
     } else {
         if (!result.segmentation)
             refuse_json(place, "bbox", "a box, or a segmentation to take it from", "neither");
@@ -124,7 +127,8 @@ inline void write_results(const std::filesystem::path& path, std::span<const Res
 }
 
 /// @brief Reads a COCO array of results, of this or of another program: what only we write (scale, class,
-/// depth_m, position_m …) may be missing, and so may either bbox or segmentation.
+/// depth_m, position_m …) may be missing, and so may either bbox or segmentation; an empty list as
+/// segmentation is none, and a box may be without area.
 /// @throws FileError, naming the file and the result's place in it, where the file cannot be read, is no such
 /// array, or a value makes no sense.
 [[nodiscard]] inline std::vector<Result> read_results(const std::filesystem::path& path) {
