@@ -40,7 +40,7 @@ ism::ReportSection figures_section(const ism::Dataset& dataset, std::span<const 
         table.rows.push_back({one.name, std::to_string(one.objects), std::to_string(one.true_positives),
                               std::to_string(one.objects - one.true_positives),
                               std::to_string(one.detections - one.true_positives),
-                              ism::percent_text(one.figures.ap), ism::percent_text(one.figures.mask_iou)});
+                              ism::percent_text(one.figures.ap), ism::mask_iou_text(one)});
     }
     ism::ReportSection section{.title = "How well they were found"};
     table.rows.push_back({"mean", "", "", "", "", ism::percent_text(evaluation.mean.ap),

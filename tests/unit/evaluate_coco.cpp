@@ -104,8 +104,26 @@ TEST_CASE("Results with numbers or masks that the data set does not know are ref
     results = good;
     results[0].segmentation = ism::compress_mask(ism::Mask(20, 30, 1));
     CHECK(message_of(set, results) == "result 0: mask size: expected 30x20, got 20x30");
+    results = good;
+    results.push_back(result_of(90, 7, {20, 0, 5, 5}, 0.1));  // also where it is wrong
+    results[1].segmentation = ism::compress_mask(ism::Mask(30, 21, 1));
+    CHECK(message_of(set, results) == "result 1: mask size: expected 30x20, got 30x21");
     CHECK_THROWS_AS(ism::evaluate(set, good, {.iou_threshold = 0}), ism::Error);
     CHECK_THROWS_AS(ism::evaluate(set, good, {.iou_threshold = 1.5}), ism::Error);
+}
+
+TEST_CASE("The IoU of masks tells of how many it is where some have none") {
+    ism::Dataset set = two_images();
+    set.images[1].objects[0].class_index = 0;  // a second cup, without a mask
+    std::vector<ism::Result> results{result_of(90, 7, {0, 0, 10, 9}, 0.9),
+                                     result_of(4, 7, {5, 5, 10, 10}, 0.8)};
+    results[0].segmentation = ism::compress_mask(rectangle(0, 0, 10, 9));
+    const ism::Evaluation evaluation = ism::evaluate(set, results);
+    CHECK(evaluation.classes[0].masks == 1);
+    CHECK(ism::mask_iou_text(evaluation.classes[0]) == "90.0 (1 of 2)");
+    CHECK(ism::mask_iou_text(evaluation.classes[1]) == "-");
+    CHECK(ism::to_table(evaluation).find("90.0 (1 of 2)\n") != std::string::npos);
+    CHECK(nlohmann::json::parse(ism::to_json(evaluation))["classes"]["cup"]["masks"] == 1);
 }
 
 TEST_CASE("A result without area finds nothing and is counted") {

@@ -92,6 +92,11 @@ struct DatasetTruth {
                                   did_you_mean(result.class_name, dataset.class_names)));
         expect(named != class_named.end() || category != class_of.end(), lazy_text(place, "category_id"),
                lazy_text("a category of ", set), result.category_id);
+        const DatasetImage& shown = dataset.images[image->second];
+        if (const auto& packed = result.segmentation; packed)
+            expect(packed->width == shown.width && packed->height == shown.height,
+                   lazy_text(place, "mask size"), lazy_text(shown.width, "x", shown.height),
+                   lazy_text(packed->width, "x", packed->height));
         found.push_back({image->second, named != class_named.end() ? named->second : category->second,
                          result.box, result.score});
     }
@@ -113,11 +118,7 @@ template <MatchRule R>
         const Mask mask =
             results[f].segmentation ? read_mask(image, image.objects[truth.where[t].second]) : Mask();
         if (mask.empty()) return std::numeric_limits<double>::quiet_NaN();
-        const CompressedRle& packed = *results[f].segmentation;
-        expect(packed.width == mask.width() && packed.height == mask.height(),
-               lazy_text("result ", f, ": mask size"), size_text(mask),
-               lazy_text(packed.width, "x", packed.height));
-        return mask_iou(decompress_mask(packed), mask);
+        return mask_iou(decompress_mask(*results[f].segmentation), mask);
     };
     return evaluate(truth.objects, detail::found_in(dataset, results), dataset.images.size(),
                     dataset.class_names, rule, overlap);
@@ -153,9 +154,9 @@ namespace detail {
 
 }  // namespace detail
 
-/// @brief An evaluation as JSON text: `classes` {name: {objects, detections, right, ap, eer, best_f1,
-/// best_f1_score, mask_iou}}, `mean` {ap, eer, best_f1, mask_iou}, `accuracy`; null where there was nothing
-/// to measure.
+/// @brief An evaluation as JSON text: `classes` {name: {objects, detections, right, masks, ap, eer,
+/// best_f1, best_f1_score, mask_iou}}, `mean` {ap, eer, best_f1, mask_iou}, `accuracy`; null where there was
+/// nothing to measure.
 [[nodiscard]] inline std::string to_json(const Evaluation& evaluation) {
     using Json = nlohmann::ordered_json;
     const auto number = [](double value) { return detail::json_number(value); };
@@ -168,8 +169,10 @@ namespace detail {
     };
     Json classes = Json::object();
     for (const ClassEvaluation& c : evaluation.classes) {
-        const Json counts = {
-            {"objects", c.objects}, {"detections", c.detections}, {"right", c.true_positives}};
+        const Json counts = {{"objects", c.objects},
+                             {"detections", c.detections},
+                             {"right", c.true_positives},
+                             {"masks", c.masks}};
         classes[c.name] = add(counts, c.figures);
         classes[c.name]["best_f1_score"] = number(c.best_f1_score);
     }

@@ -31,6 +31,7 @@ struct ClassEvaluation {
     std::size_t objects = 0;         ///< to find
     std::size_t detections = 0;      ///< counted, ignored ones left out
     std::size_t true_positives = 0;  ///< of these
+    std::size_t masks = 0;  ///< true positives whose masks were compared: mask_iou is the mean of these
     Figures figures;
     double best_f1_score = std::numeric_limits<double>::quiet_NaN();  ///< the cut of the best F1
     PrecisionRecall curve;
@@ -103,6 +104,7 @@ template <MaskOverlap Masks>
         if (right) overlap.add(masks(f, judgements[f].truth));
     }
     result.detections = verdicts.size();
+    result.masks = overlap.count;
     result.curve = precision_recall(verdicts, result.objects);
     const BestF1 best = best_f1(result.curve);
     result.best_f1_score = best.score;

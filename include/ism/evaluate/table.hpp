@@ -51,25 +51,34 @@ namespace detail {
     return text;
 }
 
+/// @brief The mean IoU of masks in percent, and where some right detections or their objects have none, of
+/// how many it is: "87.5 (3 of 4)".
+[[nodiscard]] inline std::string mask_iou_text(const ClassEvaluation& c) {
+    const std::string text = percent_text(c.figures.mask_iou);
+    if (c.masks == 0 || c.masks == c.true_positives) return text;
+    return join_text(text, " (", c.masks, " of ", c.true_positives, ")");
+}
+
 /// @brief The cells of the table of an evaluation: a heading, a row for each class and their mean, percent.
 /// "EER" is the precision where it equals recall.
 [[nodiscard]] inline std::vector<std::vector<std::string>> table_cells(const Evaluation& evaluation) {
     std::vector<std::vector<std::string>> rows = {
         {"class", "objects", "found", "right", "AP %", "EER %", "F1 %", "mask IoU %"}};
-    const auto add = [&](std::vector<std::string> row, const Figures& figures) {
-        for (const double figure : {figures.ap, figures.eer, figures.best_f1, figures.mask_iou})
-            row.push_back(percent_text(figure));
-        rows.push_back(std::move(row));
+    ClassEvaluation all;
+    all.name = "mean", all.figures = evaluation.mean;
+    const auto add = [&](const ClassEvaluation& c) {
+        rows.push_back({c.name, std::to_string(c.objects), std::to_string(c.detections),
+                        std::to_string(c.true_positives)});
+        for (const double figure : {c.figures.ap, c.figures.eer, c.figures.best_f1})
+            rows.back().push_back(percent_text(figure));
+        rows.back().push_back(mask_iou_text(c));
     };
-    std::size_t objects = 0, detections = 0, right = 0;
     for (const ClassEvaluation& c : evaluation.classes) {
-        add({c.name, std::to_string(c.objects), std::to_string(c.detections),
-             std::to_string(c.true_positives)},
-            c.figures);
-        objects += c.objects, detections += c.detections, right += c.true_positives;
+        add(c);
+        all.objects += c.objects, all.detections += c.detections;
+        all.true_positives += c.true_positives, all.masks += c.masks;
     }
-    add({"mean", std::to_string(objects), std::to_string(detections), std::to_string(right)},
-        evaluation.mean);
+    add(all);
     return rows;
 }
 
