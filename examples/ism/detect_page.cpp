@@ -30,7 +30,7 @@ std::ptrdiff_t labelled_objects(const ism::DatasetImage& image) {
 ism::ReportSection figures_section(const ism::Dataset& dataset, std::span<const ism::Result> results,
                                    const std::vector<std::string>& names) {
     const ism::Evaluation evaluation = ism::evaluate(dataset, results);
-    ism::ReportTable table{.header = {"class", "objects", "found", "missed", "wrong", "AP %", "mask IoU %"}};
+    ism::ReportTable table{.header = {"class", "objects", "right", "missed", "wrong", "AP %", "mask IoU %"}};
     ism::Plot plot = ism::precision_recall_plot(evaluation);
     plot.width_px = 380, plot.height_px = 320;
     std::size_t curve = 0;
@@ -159,7 +159,7 @@ ism::Report DetectPage::report(std::string title,
         list.parts.push_back(std::move(gallery));
         if (pages_.size() < results_.size()) {
             ism::ReportSection others{.title = "All images in words", .folded = true};
-            ism::ReportTable table{.header = {"image", "labelled", "found", "mistakes"}};
+            ism::ReportTable table{.header = {"image", "objects", "detections", "mistakes"}};
             for (std::size_t i = 0; i < std::min(results_.size(), most_named); ++i)
                 table.rows.push_back({image_names_[i], std::to_string(labelled_objects(dataset_.images[i])),
                                       std::to_string(results_[i].size()),

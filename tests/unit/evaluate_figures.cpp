@@ -204,10 +204,10 @@ TEST_CASE("The table has aligned columns, percentages and a dash where nothing w
     const std::vector<ism::FoundObject> found{{0, 0, box, 0.9}};
     const std::string table = ism::to_table(ism::evaluate(truth, found, 1, names, ism::IouRule{}));
     CHECK(table ==
-          "class    objects  found  right   AP %  EER %   F1 %  mask IoU %\n"
-          "cup            1      1      1  100.0  100.0  100.0           -\n"
-          "tea_box        0      0      0      -      -      -           -\n"
-          "mean           1      1      1  100.0  100.0  100.0           -\n"
+          "class    objects  detections  right   AP %  EER %   F1 %  mask IoU %\n"
+          "cup            1           1      1  100.0  100.0  100.0           -\n"
+          "tea_box        0           0      0      -      -      -           -\n"
+          "mean           1           1      1  100.0  100.0  100.0           -\n"
           "\n"
           "accuracy 100.0 %\n"
           "\n"

@@ -29,7 +29,7 @@ struct CocoFigures {
 struct CocoClass {
     std::string name;
     std::size_t objects = 0;     ///< to find
-    std::size_t detections = 0;  ///< the best 100 of each image
+    std::size_t detections = 0;  ///< the best 100 of each image; those ignored at IoU .5 are left out
     CocoFigures figures;
 };
 
@@ -129,9 +129,11 @@ struct CocoVerdicts {
         sort_by(image.found, [](const FoundObject* o) { return falling(o->score); });
         image.found.resize(std::min(image.found.size(), coco_max_detections));
         for (const TruthObject* truth : image.truth) result.objects += !truth->ignore;
-        for (const CocoVerdicts& one : coco_match(image)) verdicts.push_back(one);
+        for (const CocoVerdicts& one : coco_match(image)) {
+            verdicts.push_back(one);
+            result.detections += one.at[0] != Verdict::ignored;
+        }
     }
-    result.detections = verdicts.size();
     if (result.objects == 0) return result;
     sort_by(verdicts, [](const CocoVerdicts& one) { return falling(one.score); });
     result.figures.ap = result.figures.recall = 0;

@@ -63,7 +63,7 @@ namespace detail {
 /// "EER" is the precision where it equals recall.
 [[nodiscard]] inline std::vector<std::vector<std::string>> table_cells(const Evaluation& evaluation) {
     std::vector<std::vector<std::string>> rows = {
-        {"class", "objects", "found", "right", "AP %", "EER %", "F1 %", "mask IoU %"}};
+        {"class", "objects", "detections", "right", "AP %", "EER %", "F1 %", "mask IoU %"}};
     ClassEvaluation all;
     all.name = "mean", all.figures = evaluation.mean;
     const auto add = [&](const ClassEvaluation& c) {
@@ -113,7 +113,7 @@ namespace detail {
 /// @brief An evaluation by COCO's rule as lines of text: figures in percent, "-" = nothing to measure.
 [[nodiscard]] inline std::string to_table(const CocoEvaluation& evaluation) {
     std::vector<std::vector<std::string>> rows = {
-        {"class", "objects", "found", "AP %", "AP50 %", "AP75 %", "recall %"}};
+        {"class", "objects", "detections", "AP %", "AP50 %", "AP75 %", "recall %"}};
     const auto add = [&](std::vector<std::string> row, const CocoFigures& figures) {
         for (const double figure : {figures.ap, figures.ap50, figures.ap75, figures.recall})
             row.push_back(percent_text(figure));
