@@ -149,12 +149,18 @@ TEST_CASE("A confusion matrix counts the class of each image's most confident de
     const ism::Box box{0, 0, 10, 10};
     const std::vector<ism::TruthObject> truth{{0, 0, box}, {1, 0, box}, {2, 1, box}, {3, 1, box}};
     const std::vector<ism::FoundObject> found{
-        {0, 1, box, 0.2}, {0, 0, box, 0.3}, {1, 1, box, 0.9}, {2, 1, {500, 0, 1, 1}, 0.1}, {2, 0, box, 0.1}};
+        {0, 1, box, 0.2}, {0, 0, box, 0.3}, {1, 1, box, 0.9}, {2, 1, {500, 0, 1, 1}, 0.1}, {2, 0, box, 0.05}};
     const ism::Confusion matrix = ism::confusion(truth, found, 4, 2);
     CHECK(matrix.counts == std::vector<std::size_t>{1, 1, 0, 0, 1, 1});
     CHECK(matrix.count(1, 2) == 1);
     CHECK(matrix.images(1) == 2);
     CHECK(matrix.accuracy() == 0.5);
+    std::vector<ism::FoundObject> equal{
+        {0, 0, box, 0.5}, {0, 1, box, 0.5}, {0, 1, box, 0.5}, {1, 0, box, 0.5}};
+    for (int order = 0; order < 2; ++order) {  // of equal scores, that which is wrong
+        CHECK(ism::confusion(truth, equal, 4, 2).counts == std::vector<std::size_t>{1, 1, 0, 0, 0, 2});
+        std::reverse(equal.begin(), equal.end());
+    }
     CHECK_THROWS_AS(ism::confusion(truth, found, 5, 2), ism::Error);
     CHECK_THROWS_AS(ism::confusion(truth, found, 4, 1), ism::Error);
     CHECK(ism::one_object_each(truth, 4));
@@ -209,9 +215,53 @@ TEST_CASE("The table has aligned columns, percentages and a dash where nothing w
           "tea_box        0           0      0      -      -      -           -\n"
           "mean           1           1      1  100.0  100.0  100.0           -\n"
           "\n"
-          "accuracy 100.0 %\n"
+          "accuracy 100.0 %: images whose best detection is of the right class, wherever it lies\n"
           "\n"
-          "true \\ found  cup  tea_box  none\n"
-          "cup             1        0     0\n"
-          "tea_box         0        0     0\n");
+          "true \\ detected as  cup  tea_box  none\n"
+          "cup                   1        0     0\n"
+          "tea_box               0        0     0\n");
+}
+
+TEST_CASE("Long names and control characters leave the table readable") {
+    const ism::Box box{0, 0, 10, 10};
+    const std::string longest(200, 'n');
+    const std::vector<std::string> names{longest + "1", "a\nb\x1b[31m", longest + "2"};
+    const std::vector<ism::TruthObject> truth{{0, 0, box}, {1, 1, box}};
+    const std::string table = ism::to_table(ism::evaluate(truth, {}, 2, names, ism::IouRule{}));
+    CHECK(table.find("a\\x0ab\\x1b[31m ") != std::string::npos);
+    CHECK(table.find('\x1b') == std::string::npos);
+    std::size_t longest_line = 0;
+    for (std::size_t begin = 0, end = 0; (end = table.find('\n', begin)) != std::string::npos;
+         begin = end + 1)
+        longest_line = std::max(longest_line, end - begin);
+    CHECK(longest_line < 120);
+    CHECK(ism::shortened("abcdefghij", 6) == "abc…ij");
+    CHECK(ism::shortened("abcdef", 6) == "abcdef");
+    CHECK(ism::shortened("ääääöö", 4) == "ää…ö");
+    CHECK(ism::shortened(names[0], 32) != ism::shortened(names[2], 32));
+}
+
+TEST_CASE("Of many classes only the confusions that happened are told, the worst first") {
+    const ism::Box box{0, 0, 10, 10};
+    std::vector<std::string> names;
+    std::vector<ism::TruthObject> truth;
+    std::vector<ism::FoundObject> found;
+    for (std::uint32_t c = 0; c < 30; ++c) {
+        names.push_back("c" + std::to_string(c));
+        for (int k = 0; k < 2; ++k) truth.push_back({truth.size(), c, box});
+    }
+    const auto table = [&] {
+        return ism::to_table(ism::evaluate(truth, found, truth.size(), names, ism::IouRule{}));
+    };
+    for (const ism::TruthObject& t : truth) found.push_back({t.image, t.class_index, box, 0.5});
+    CHECK(table().ends_with("\nno class was taken for another\n"));
+    found[0].class_index = 7;                         // an image of c0
+    found[2].class_index = found[3].class_index = 9;  // both of c1
+    CHECK(
+        table().ends_with("\n\n"
+                          "true -> detected as  images\n"
+                          "c1 -> c9                  2\n"
+                          "c0 -> c7                  1\n"));
+    found.resize(2);
+    CHECK(table().ends_with("... and 10 more\n"));  // 29 classes of none and c0 -> c7
 }

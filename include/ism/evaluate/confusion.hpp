@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -50,27 +52,38 @@ struct Confusion {
 }
 
 /// @brief The confusion matrix of images that hold one object each; the predicted class is
-/// that of the detection with the best score (of equal ones the earlier), wherever it lies.
+/// that of the detection with the best score, wherever it lies. Where several classes share the best score it
+/// is one of the wrong ones, that of the lowest index: who cannot tell them apart is not right by the order
+/// of a file.
 /// @throws Error where an image holds more or less than one object, or an index is too large.
 [[nodiscard]] inline Confusion confusion(std::span<const TruthObject> truth,
                                          std::span<const FoundObject> found, std::size_t image_count,
                                          std::size_t class_count) {
     expect(one_object_each(truth, image_count), "objects of the images", "exactly one in each",
            lazy_text(truth.size(), " in ", image_count, " images"));
-    std::vector<std::size_t> taken_for(image_count, class_count);
+    std::vector<std::vector<std::uint32_t>> best(image_count);  // classes of the best score
+    std::vector<double> best_score(image_count);
     for (const std::size_t f : by_score(found)) {
         expect(found[f].image < image_count, "image of a found object", lazy_text("below ", image_count),
                found[f].image);
         expect(found[f].class_index < class_count, "class of a found object",
                lazy_text("below ", class_count), found[f].class_index);
-        if (taken_for[found[f].image] == class_count) taken_for[found[f].image] = found[f].class_index;
+        std::vector<std::uint32_t>& here = best[found[f].image];
+        if (here.empty()) best_score[found[f].image] = found[f].score;
+        if (found[f].score == best_score[found[f].image]) here.push_back(found[f].class_index);
     }
+    const auto taken_for = [&](const TruthObject& t) {
+        std::size_t wrong = class_count;
+        for (const std::uint32_t c : best[t.image])
+            if (c != t.class_index) wrong = std::min<std::size_t>(wrong, c);
+        return wrong == class_count && !best[t.image].empty() ? t.class_index : wrong;
+    };
     Confusion matrix{.class_count = class_count,
                      .counts = std::vector<std::size_t>(class_count * (class_count + 1))};
     for (const TruthObject& t : truth) {
         expect(t.class_index < class_count, "class of an object", lazy_text("below ", class_count),
                t.class_index);
-        ++matrix.counts[t.class_index * (class_count + 1) + taken_for[t.image]];
+        ++matrix.counts[t.class_index * (class_count + 1) + taken_for(t)];
     }
     return matrix;
 }

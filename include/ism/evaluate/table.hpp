@@ -12,6 +12,8 @@
 #include "ism/core/number_text.hpp"
 #include "ism/evaluate/coco_rule.hpp"
 #include "ism/evaluate/evaluate.hpp"
+#include "ism/io/paths.hpp"
+#include "ism/show/short_text.hpp"
 
 namespace ism {
 
@@ -86,7 +88,7 @@ namespace detail {
 /// for and one for "none", images.
 [[nodiscard]] inline std::vector<std::vector<std::string>> table_cells(
     const Confusion& confusion, const std::vector<ClassEvaluation>& classes) {
-    std::vector<std::vector<std::string>> rows = {{"true \\ found"}};
+    std::vector<std::vector<std::string>> rows = {{"true \\ detected as"}};
     for (const ClassEvaluation& c : classes) rows[0].push_back(c.name);
     rows[0].emplace_back("none");
     for (std::size_t truth = 0; truth < confusion.class_count; ++truth) {
@@ -97,17 +99,58 @@ namespace detail {
     return rows;
 }
 
-/// @brief An evaluation as lines of text with aligned columns: figures in percent ("-" = nothing to measure),
-/// then, where every image holds one object, the accuracy and for several classes the confusion matrix.
-[[nodiscard]] inline std::string to_table(const Evaluation& evaluation) {
-    std::string text = align_columns(table_cells(evaluation));
-    if (!evaluation.confusion) return text;
-    text += "\naccuracy " + percent_text(evaluation.confusion->accuracy()) + " %\n";
-    if (evaluation.classes.size() > 1) {
-        text += '\n';
-        text += align_columns(table_cells(*evaluation.confusion, evaluation.classes));
-    }
+namespace detail {
+
+/// Cells as text, their first column and the heading, which are names, short and each in a line.
+[[nodiscard]] inline std::string named_rows(std::vector<std::vector<std::string>> rows) {
+    constexpr std::size_t most_letters = 32, most_in_heading = 14;
+    for (std::size_t column = 1; column < rows[0].size(); ++column)
+        rows[0][column] = shortened(one_line(rows[0][column]), most_in_heading);
+    for (auto& row : rows) row[0] = shortened(one_line(row[0]), most_letters);
+    return align_columns(rows);
+}
+
+/// The classes that were taken for others, most images first.
+[[nodiscard]] inline std::string confusions_text(const Confusion& confusion,
+                                                 const std::vector<ClassEvaluation>& classes) {
+    constexpr std::size_t most_rows = 20, most_letters = 28;
+    const std::size_t count = confusion.class_count;
+    const auto name = [&](std::size_t c) {
+        return c < count ? shortened(one_line(classes.at(c).name), most_letters) : std::string("none");
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> wrong;
+    for (std::size_t truth = 0; truth < count; ++truth)
+        for (std::size_t found = 0; found <= count; ++found)
+            if (found != truth && confusion.count(truth, found) > 0) wrong.emplace_back(truth, found);
+    if (wrong.empty()) return "no class was taken for another\n";
+    std::stable_sort(wrong.begin(), wrong.end(), [&](const auto& a, const auto& b) {
+        return confusion.count(a.first, a.second) > confusion.count(b.first, b.second);
+    });
+    std::vector<std::vector<std::string>> rows = {{"true -> detected as", "images"}};
+    for (std::size_t k = 0; k < std::min(most_rows, wrong.size()); ++k)
+        rows.push_back({name(wrong[k].first) + " -> " + name(wrong[k].second),
+                        std::to_string(confusion.count(wrong[k].first, wrong[k].second))});
+    std::string text = align_columns(rows);
+    if (wrong.size() > most_rows) text += join_text("... and ", wrong.size() - most_rows, " more\n");
     return text;
+}
+
+}  // namespace detail
+
+/// @brief An evaluation as lines of text with aligned columns: figures in percent ("-" = nothing to measure),
+/// then, where every image holds one object, the accuracy and for several classes the confusion matrix; of
+/// more than twelve the confusions that happened, the worst first. Long names are shortened.
+[[nodiscard]] inline std::string to_table(const Evaluation& evaluation) {
+    constexpr std::size_t largest_matrix = 12;
+    std::string text = detail::named_rows(table_cells(evaluation));
+    if (!evaluation.confusion) return text;
+    text += "\naccuracy " + percent_text(evaluation.confusion->accuracy()) +
+            " %: images whose best detection is of the right class, wherever it lies\n";
+    if (evaluation.classes.size() < 2) return text;
+    return text + '\n' +
+           (evaluation.classes.size() > largest_matrix
+                ? detail::confusions_text(*evaluation.confusion, evaluation.classes)
+                : detail::named_rows(table_cells(*evaluation.confusion, evaluation.classes)));
 }
 
 /// @brief An evaluation by COCO's rule as lines of text: figures in percent, "-" = nothing to measure.
@@ -125,7 +168,7 @@ namespace detail {
         objects += c.objects, detections += c.detections;
     }
     add({"mean", std::to_string(objects), std::to_string(detections)}, evaluation.mean);
-    return align_columns(rows);
+    return detail::named_rows(std::move(rows));
 }
 
 }  // namespace ism
