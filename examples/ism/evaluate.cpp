@@ -16,6 +16,7 @@
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"
+#include "ism/version.hpp"
 
 namespace program {
 
@@ -32,6 +33,20 @@ std::vector<ism::Result> read_detections(const std::filesystem::path& file) {
                              ": expected an array of results, as ism detect -o writes it, got an object; ism "
                              "detect --json writes such lines, for other programs");
     }
+}
+
+/// What is measured, and how, with the figures.
+std::string figures_json(const EvaluateCommand& command, const ism::Dataset& dataset,
+                         nlohmann::ordered_json figures) {
+    const bool uiuc = command.options.rule == ism::EvaluateOptions::Rule::uiuc;
+    nlohmann::ordered_json root = {{"version", ism::version_text},
+                                   {"images", dataset.images.size()},
+                                   {"rule", command.coco ? "coco"
+                                            : uiuc       ? "uiuc"
+                                                         : "iou"}};
+    if (!command.coco && !uiuc) root["iou"] = command.options.iou_threshold;
+    root.update(figures);
+    return ism::detail::indented(root) + "\n";
 }
 
 /// Leaves out, and tells, results of classes that no label names, where classes are only those that labels
@@ -59,9 +74,9 @@ void leave_out_unknown(const ism::Dataset& dataset, std::vector<ism::Result>& re
 }  // namespace
 
 void run_evaluate(const EvaluateCommand& command) {
-    ism::expect(command.plot != "-", "--plot", "a file", "standard output");
+    ism::expect(!is_standard_output(command.plot), "--plot", "a file", "standard output");
     for (const auto& output : {command.json, command.plot})
-        if (!output.empty() && output != "-")
+        if (!output.empty() && !is_standard_output(output))
             check_output(output, std::array{command.data, command.detections});
     ism::expect(command.plot.empty() || command.plot.lexically_normal() != command.json.lexically_normal(),
                 "--plot", "another file than --json", "the same");
@@ -70,8 +85,8 @@ void run_evaluate(const EvaluateCommand& command) {
     std::vector<ism::Result> results = read_detections(command.detections);
     leave_out_unknown(dataset, results);
     const auto tell = [&](const auto& evaluation) {
-        const std::string json = ism::to_json(evaluation) + "\n";
-        if (command.json == "-") {
+        const std::string json = figures_json(command, dataset, ism::detail::json_of(evaluation));
+        if (is_standard_output(command.json)) {
             std::fputs(json.c_str(), stdout);
             return;
         }

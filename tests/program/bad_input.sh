@@ -151,6 +151,10 @@ cat toys/detections-jism.json | "$ism" evaluate --data toys/test.json --detectio
     fail "evaluate: no figures of results that come through a pipe"
 "$ism" "${figures[@]}" --json - | grep -q '^  "classes": {' || fail "evaluate --json -: no JSON on standard output"
 [[ ! -e - ]] || fail "evaluate --json -: a file of this name"
+"$ism" "${figures[@]}" --json /dev/stdout >figures.json
+! grep -q "^mean " figures.json || fail "evaluate --json /dev/stdout: a table, too"
+for text in '"version": "' '"images": 2,' '"rule": "iou",' '"iou": 0.5,'; do says "$text" figures.json; done
+"$ism" "${figures[@]}" --rule coco --json - | grep -q '"rule": "coco",' || fail "evaluate --json: no rule"
 
 # What is write-protected is not replaced, and permissions stay.
 echo kept >protected.json

@@ -150,6 +150,9 @@ TEST_CASE("An evaluation as JSON keeps the order of classes and writes null for 
     const std::vector<ism::Result> results{result_of(4, 3, {5, 5, 10, 10}, 0.8)};
     const auto with_accuracy = nlohmann::json::parse(ism::to_json(ism::evaluate(one_each, results)));
     CHECK(with_accuracy["accuracy"] == 0.5);
+    CHECK(with_accuracy["confusion"]["classes"] == nlohmann::json{"cup", "bowl"});
+    CHECK(with_accuracy["confusion"]["images"].dump() == "[[0,0,1],[0,1,0]]");
+    CHECK_FALSE(json.contains("confusion"));
 }
 
 TEST_CASE("The thresholds of COCO's rule are those of numpy's linspace") {

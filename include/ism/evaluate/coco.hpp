@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -12,13 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "ism/core/nearest_name.hpp"
 #include "ism/dataset/coco_results.hpp"
 #include "ism/dataset/dataset.hpp"
 #include "ism/evaluate/coco_rule.hpp"
 #include "ism/evaluate/evaluate.hpp"
+#include "ism/evaluate/figures_json.hpp"
 #include "ism/io/paths.hpp"
 
 namespace ism {
@@ -144,59 +142,6 @@ template <MatchRule R>
     };
     return evaluate_coco(put(detail::truth_of(dataset).objects), put(detail::found_in(dataset, results)),
                          dataset.images.size(), dataset.class_names);
-}
-
-namespace detail {
-
-[[nodiscard]] inline nlohmann::ordered_json json_number(double value) {
-    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
-}  // namespace detail
-
-/// @brief An evaluation as JSON text: `classes` {name: {objects, detections, right, masks, ap, eer,
-/// best_f1, best_f1_score, mask_iou}}, `mean` {ap, eer, best_f1, mask_iou}, `accuracy`; null where there was
-/// nothing to measure.
-[[nodiscard]] inline std::string to_json(const Evaluation& evaluation) {
-    using Json = nlohmann::ordered_json;
-    const auto number = [](double value) { return detail::json_number(value); };
-    const auto add = [&](Json record, const Figures& figures) {
-        record["ap"] = number(figures.ap);
-        record["eer"] = number(figures.eer);
-        record["best_f1"] = number(figures.best_f1);
-        record["mask_iou"] = number(figures.mask_iou);
-        return record;
-    };
-    Json classes = Json::object();
-    for (const ClassEvaluation& c : evaluation.classes) {
-        const Json counts = {{"objects", c.objects},
-                             {"detections", c.detections},
-                             {"right", c.true_positives},
-                             {"masks", c.masks}};
-        classes[c.name] = add(counts, c.figures);
-        classes[c.name]["best_f1_score"] = number(c.best_f1_score);
-    }
-    Json root = {{"classes", classes}, {"mean", add(Json::object(), evaluation.mean)}};
-    root["accuracy"] = evaluation.confusion ? Json(evaluation.confusion->accuracy()) : Json(nullptr);
-    return root.dump(2, ' ', false, Json::error_handler_t::replace);
-}
-
-/// @brief An evaluation by COCO's rule as JSON text: `classes` {name: {objects, detections, ap, ap50, ap75,
-/// recall}}, `mean` {ap, ap50, ap75, recall}; null where there was nothing to measure.
-[[nodiscard]] inline std::string to_json(const CocoEvaluation& evaluation) {
-    using Json = nlohmann::ordered_json;
-    const auto add = [](Json record, const CocoFigures& figures) {
-        record["ap"] = detail::json_number(figures.ap);
-        record["ap50"] = detail::json_number(figures.ap50);
-        record["ap75"] = detail::json_number(figures.ap75);
-        record["recall"] = detail::json_number(figures.recall);
-        return record;
-    };
-    Json classes = Json::object();
-    for (const CocoClass& c : evaluation.classes)
-        classes[c.name] = add({{"objects", c.objects}, {"detections", c.detections}}, c.figures);
-    const Json root = {{"classes", classes}, {"mean", add(Json::object(), evaluation.mean)}};
-    return root.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace ism
