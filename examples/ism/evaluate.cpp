@@ -22,6 +22,16 @@ namespace program {
 
 namespace {
 
+/// Whether a file holds labels of COCO or labelme.
+bool are_labels(const std::filesystem::path& file) {
+    try {
+        const ism::detail::Json root = ism::detail::read_json(file);
+        return root.contains("images") || root.contains("annotations") || root.contains("shapes");
+    } catch (const ism::FileError&) {
+        return false;
+    }
+}
+
 /// Results of another program or of `ism detect -o`.
 /// @throws ism::FileError where the file holds the lines of `ism detect --json`, and as ism::read_results().
 std::vector<ism::Result> read_detections(const std::filesystem::path& file) {
@@ -29,6 +39,9 @@ std::vector<ism::Result> read_detections(const std::filesystem::path& file) {
         return ism::read_results(file);
     } catch (const ism::FileError&) {
         if (!std::filesystem::is_regular_file(file) || !ism::detail::begins_as_object(file)) throw;
+        if (are_labels(file))
+            throw ism::FileError(ism::file_text(file) +
+                                 ": expected an array of results, as ism detect -o writes it, got labels");
         throw ism::FileError(ism::file_text(file) +
                              ": expected an array of results, as ism detect -o writes it, got an object; ism "
                              "detect --json writes such lines, for other programs");
@@ -82,6 +95,9 @@ void run_evaluate(const EvaluateCommand& command) {
                 "--plot", "another file than --json", "the same");
     const ism::Dataset dataset = read_data(command.data, ism::DatasetPart::test, command.skip_bad);
     check_not_labels(dataset, std::array{command.json, command.plot});
+    const auto is_labelled = [](const ism::DatasetImage& image) { return !image.objects.empty(); };
+    ism::expect<ism::FileError>(std::any_of(dataset.images.begin(), dataset.images.end(), is_labelled),
+                                ism::file_text(command.data), "labels to measure against", "none");
     std::vector<ism::Result> results = read_detections(command.detections);
     leave_out_unknown(dataset, results);
     const auto tell = [&](const auto& evaluation) {

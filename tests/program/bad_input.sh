@@ -139,7 +139,10 @@ rm two/test-0001.png
 sed 's/"image_id":1,/"image_id":77,/' toys/detections-jism.json >other.json
 $line "file 'other.json': result 0: image_id: expected an image of data set 'toys/test.json', got 77" \
     "$ism" evaluate --data toys/test.json --detections other.json
-$line "array of results" "$ism" evaluate --data toys/test.json --detections toys/test.json
+$line "expected an array of results, as ism detect -o writes it, got labels" \
+    "$ism" evaluate --data toys/test.json --detections toys/test.json
+refused "file 'toys/test': expected labels to measure against, got none" \
+    "$ism" evaluate --data toys/test --detections toys/detections-jism.json
 "$ism" detect --model $model toys/test/test-0000.png --json lines.json 2>/dev/null
 $line "file 'lines.json': expected an array of results, as ism detect -o writes it, got an object" \
     "$ism" evaluate --data toys/test.json --detections lines.json
