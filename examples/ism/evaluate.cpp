@@ -2,17 +2,21 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "commands.hpp"
 #include "data.hpp"
 #include "input.hpp"
+#include "pictures.hpp"
 
 #include "ism/dataset/any_dataset.hpp"
+#include "ism/dataset/read_images.hpp"
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 #include "ism/evaluate/table.hpp"
@@ -84,6 +88,25 @@ void leave_out_unknown(const ism::Dataset& dataset, std::vector<ism::Result>& re
                  dataset.class_names.empty() ? "nothing" : list_text(dataset.class_names).c_str());
 }
 
+/// Leaves out images that cannot be read, as ism detect --skip-bad does, and what was found in them. Where
+/// none of the images is there, labels alone are measured against.
+void leave_out_bad(ism::Dataset& dataset, std::vector<ism::Result>& results) {
+    std::error_code ignored;
+    const auto is_there = [&](const auto& image) { return std::filesystem::exists(image.file, ignored); };
+    if (std::none_of(dataset.images.begin(), dataset.images.end(), is_there)) return;
+    std::set<std::int64_t> bad;
+    for (const ism::DatasetImage& image : dataset.images) bad.insert(image.id);
+    const std::size_t images = check_images(dataset, 0, true, [](const ism::DatasetImage& image) {
+        static_cast<void>(ism::read_frame(image, read_picture));
+    });
+    if (images == 0) return;
+    for (const ism::DatasetImage& image : dataset.images) bad.erase(image.id);
+    const std::size_t left_out =
+        std::erase_if(results, [&](const ism::Result& result) { return bad.contains(result.image_id); });
+    std::fprintf(stderr, "ism: note: %zu of %zu images are left out, and %zu results in them\n", images,
+                 images + dataset.images.size(), left_out);
+}
+
 }  // namespace
 
 void run_evaluate(const EvaluateCommand& command) {
@@ -93,12 +116,13 @@ void run_evaluate(const EvaluateCommand& command) {
             check_output(output, std::array{command.data, command.detections});
     ism::expect(command.plot.empty() || command.plot.lexically_normal() != command.json.lexically_normal(),
                 "--plot", "another file than --json", "the same");
-    const ism::Dataset dataset = read_data(command.data, ism::DatasetPart::test, command.skip_bad);
+    ism::Dataset dataset = read_data(command.data, ism::DatasetPart::test, command.skip_bad);
     check_not_labels(dataset, std::array{command.json, command.plot});
     const auto is_labelled = [](const ism::DatasetImage& image) { return !image.objects.empty(); };
     ism::expect<ism::FileError>(std::any_of(dataset.images.begin(), dataset.images.end(), is_labelled),
                                 ism::file_text(command.data), "labels to measure against", "none");
     std::vector<ism::Result> results = read_detections(command.detections);
+    if (command.skip_bad) leave_out_bad(dataset, results);
     leave_out_unknown(dataset, results);
     const auto tell = [&](const auto& evaluation) {
         const std::string json = figures_json(command, dataset, ism::detail::json_of(evaluation));

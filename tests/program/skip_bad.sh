@@ -38,6 +38,19 @@ says "skipped     1" detect.txt
 says '"image_id":2,' found
 ! grep -qF '"image_id":1,' found || fail "detections in an image that was skipped"
 
+# What detect skips is not measured either: figures are those of its report, whatever was found in the image before.
+"$ism" evaluate --data bad/test.json --detections toys/detections-jism.json --skip-bad >figures.txt 2>evaluate.err
+says "ism: note: 1 of 2 images are left out, and $(grep -c '"image_id":1,' toys/detections-jism.json) results in them" evaluate.err
+grep '"image_id":2,' toys/detections-jism.json | sed '1s/^/[/; $s/,*$/]/' >second.json
+"$ism" evaluate --data bad/test.json --detections second.json --skip-bad 2>/dev/null | cmp - figures.txt ||
+    fail "results in an image that was left out are measured"
+objects=$(grep '"image_id":2,' bad/test.json | grep -c '"category_id"')
+(($(awk '$1 == "mean" {print $2}' figures.txt) == objects)) || fail "objects of an image that was left out count: $(cat figures.txt)"
+mkdir labels
+cp toys/test.json labels
+"$ism" evaluate --data labels/test.json --detections toys/detections-jism.json --skip-bad >/dev/null 2>evaluate.err
+! grep -q "left out" evaluate.err || fail "labels without any image: $(cat evaluate.err)"
+
 # An image without depth among others with it.
 sed '0,/"depth_file_name":"[^"]*",/s///' toys/test.json >toys/part.json
 refused "expected a depth image (depth_file_name)" "$ism" detect --model whole --data toys/part.json -o out --space ji3sm2
