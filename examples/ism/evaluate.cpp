@@ -15,6 +15,7 @@
 #include "input.hpp"
 #include "pictures.hpp"
 
+#include "ism/core/number_text.hpp"
 #include "ism/dataset/any_dataset.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/evaluate/coco.hpp"
@@ -88,6 +89,21 @@ void leave_out_unknown(const ism::Dataset& dataset, std::vector<ism::Result>& re
                  dataset.class_names.empty() ? "nothing" : list_text(dataset.class_names).c_str());
 }
 
+/// Tells where results end at a probability, as those of ism detect do by default.
+void tell_end(const std::vector<ism::Result>& results, bool coco) {
+    constexpr double none_lower = 0.1;
+    if (results.empty()) return;
+    double least = 1;
+    for (const ism::Result& result : results) {
+        if (!(result.probability >= none_lower)) return;  // or not known
+        least = std::min(least, result.probability);
+    }
+    std::fprintf(stderr,
+                 "ism: note: results end at probability %s: AP and %s count only those; ism detect "
+                 "--min-score 0 tells all\n",
+                 ism::number_text(least, 2).c_str(), coco ? "recall" : "EER");
+}
+
 /// Leaves out images that cannot be read, as ism detect --skip-bad does, and what was found in them. Where
 /// none of the images is there, labels alone are measured against.
 void leave_out_bad(ism::Dataset& dataset, std::vector<ism::Result>& results) {
@@ -125,6 +141,7 @@ void run_evaluate(const EvaluateCommand& command) {
     if (command.skip_bad) leave_out_bad(dataset, results);
     leave_out_unknown(dataset, results);
     const auto tell = [&](const auto& evaluation) {
+        tell_end(results, command.coco);
         const std::string json = figures_json(command, dataset, ism::detail::json_of(evaluation));
         if (is_standard_output(command.json)) {
             std::fputs(json.c_str(), stdout);
