@@ -69,10 +69,12 @@ Contents look(const ism::Dataset& dataset, unsigned threads) {
         ism::ImageFacts& facts = contents.images[i];
         if (facts.fingerprint != 0) {
             const auto [same, is_new] = first.emplace(facts.fingerprint, i);
+            const ism::DatasetImage& other = dataset.images[same->second];
             if (!is_new)
-                facts.remarks.push_back(
-                    {.kind = "same picture twice",
-                     .text = "also " + short_name(dataset, dataset.images[same->second])});
+                facts.remarks.push_back({.kind = same_labels(dataset.images[i], other)
+                                                     ? "same picture twice"
+                                                     : "same picture twice, with other labels",
+                                         .text = "also " + short_name(dataset, other)});
         }
         for (const ism::Remark& remark : facts.remarks) contents.by_kind[remark.kind].push_back({i, remark});
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -67,9 +68,25 @@ TEST_CASE("What looks wrong with a label is remarked") {
     image.objects.push_back(image.objects[0]);
     CHECK(kinds_of(image, frame_of()) == Kinds{"labelled twice"});
     image.objects[1].class_index = 1;
+    CHECK(kinds_of(image, frame_of()) == Kinds{"two classes in one box"});
+    image.objects[1].box = {20, 10, 30, 40};
     CHECK(kinds_of(image, frame_of()).empty());
     image.objects[1] = {.id = 2, .box = {1, 1, 2, 2}, .crowd = true};
     CHECK(kinds_of(image, frame_of()).empty());
+}
+
+TEST_CASE("Labels of one picture are the same in any order, and others with another class or box") {
+    ism::DatasetImage image = image_with({20, 10, 40, 40});
+    image.objects.push_back({.id = 2, .class_index = 1, .box = {1, 1, 20, 20}});
+    ism::DatasetImage other = image;
+    std::swap(other.objects[0], other.objects[1]);
+    CHECK(ism::same_labels(image, other));
+    other.objects[0].class_index = 0;
+    CHECK_FALSE(ism::same_labels(image, other));
+    other.objects[0] = image.objects[1], other.objects[1].box.x = 21;
+    CHECK_FALSE(ism::same_labels(image, other));
+    other.objects.pop_back();
+    CHECK_FALSE(ism::same_labels(image, other));
 }
 
 TEST_CASE("A depth scale that puts objects far away, and depth that lacks them, are remarked") {

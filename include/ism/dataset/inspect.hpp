@@ -27,7 +27,7 @@ struct InspectOptions {
     double min_mask_fill = 0.5;      ///< IoU of a box with the one around its mask
     double min_depth_m = 0.1, max_depth_m = 20;  ///< of objects before a depth camera
     double min_depth_share = 0.3;                ///< of an object's pixels, with a reading
-    double same_object_iou = 0.9;                ///< of two boxes of one class
+    double same_object_iou = 0.9;                ///< of two boxes that seem to be of one object
     double position_margin = 0.5;  ///< of a box's sides: what is seen further outside is not its object
 };
 
@@ -55,6 +55,14 @@ struct ImageFacts {
     double depth_share = 0;         ///< of its pixels, with a reading
     std::uint64_t fingerprint = 0;  ///< the same for the same pixels
 };
+
+/// @brief Whether two images have the same labels, in any order; masks are not compared.
+[[nodiscard]] inline bool same_labels(const DatasetImage& a, const DatasetImage& b) {
+    const auto alike = [](const DatasetAnnotation& one, const DatasetAnnotation& other) {
+        return one.class_index == other.class_index && one.box == other.box && one.crowd == other.crowd;
+    };
+    return std::is_permutation(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(), alike);
+}
 
 namespace detail {
 
@@ -154,9 +162,12 @@ namespace detail {
         facts.objects.push_back(detail::inspect_object(image, i, frame, options, facts.remarks));
         for (std::size_t j = 0; j < i; ++j) {
             const DatasetAnnotation& other = image.objects[j];
-            if (!other.crowd && other.class_index == object.class_index &&
-                iou(other.box, object.box) >= options.same_object_iou)
+            if (other.crowd || iou(other.box, object.box) < options.same_object_iou) continue;
+            if (other.class_index == object.class_index)
                 facts.remarks.push_back({"labelled twice", i, "another label has almost the same box"});
+            else
+                facts.remarks.push_back(
+                    {"two classes in one box", i, "a label of another class has almost the same box"});
         }
     }
     if (!frame.depth_m.empty()) {
