@@ -18,6 +18,7 @@
 #include "ism/core/thread_pool.hpp"
 #include "ism/dataset/read_images.hpp"
 #include "ism/evaluate/table.hpp"
+#include "ism/show/short_text.hpp"
 
 namespace program {
 
@@ -89,15 +90,23 @@ std::vector<std::vector<Example>> by_class(const ism::Dataset& dataset, const Co
     return examples;
 }
 
-/// The least, the middle and the largest of some numbers: "2.5 … 45 … 1200".
+/// The least, the median and the largest of some numbers: "2.5 … 45 … 1200".
 std::string spread_text(std::vector<double> values) {
     if (values.empty()) return ism::number_text(NAN);
     std::sort(values.begin(), values.end());
     const auto text = [](double value) {
         return value < 100 ? ism::number_text(value, 3) : ism::fixed_text(value, 0);
     };
-    return ism::join_text(text(values.front()), " … ", text(values[values.size() / 2]), " … ",
-                          text(values.back()));
+    const double median = (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+    return ism::join_text(text(values.front()), " … ", text(median), " … ", text(values.back()));
+}
+
+/// The first of some texts, and how many more there are.
+std::string some_text(std::vector<std::string> texts) {
+    constexpr std::size_t most = 10;
+    const std::size_t more = texts.size() - std::min(most, texts.size());
+    texts.resize(texts.size() - more);
+    return list_text(texts) + (more > 0 ? ism::join_text(" and ", more, " more") : "");
 }
 
 std::vector<std::vector<std::string>> class_table(const ism::Dataset& dataset,
@@ -115,7 +124,7 @@ std::vector<std::vector<std::string>> class_table(const ism::Dataset& dataset,
             sizes.push_back(one.facts.size_px), masks += one.facts.masked, share += one.facts.depth_share;
             if (ism::is_depth(one.facts.depth_m)) distances.push_back(one.facts.depth_m);
         }
-        rows.push_back({ism::one_line(dataset.class_names[c]), std::to_string(examples[c].size()),
+        rows.push_back({dataset.class_names[c], std::to_string(examples[c].size()),
                         std::to_string(images.size()), std::to_string(masks), spread_text(sizes)});
         if (depth)
             rows.back().insert(rows.back().end(),
@@ -283,14 +292,16 @@ void run_inspect(const InspectCommand& command) {
         without_camera += contents.images[i].depth_share > 0 && !image.camera;
         depth_share += contents.images[i].depth_share;
     }
+    std::vector<std::string> without, few;
     for (std::size_t c = 0; c < examples.size(); ++c) {
         const std::string& name = dataset.class_names[c];
-        if (examples[c].empty()) {
-            contents.of_set.push_back("class without objects: " + name);
-        } else if (examples[c].size() < few_examples) {
-            contents.of_set.push_back(ism::join_text("few examples: ", name, " has ", examples[c].size()));
-        }
+        if (examples[c].empty())
+            without.push_back(name);
+        else if (examples[c].size() < few_examples)
+            few.push_back(ism::join_text(name, " has ", examples[c].size()));
     }
+    if (!without.empty()) contents.of_set.push_back("classes without objects: " + some_text(without));
+    if (!few.empty()) contents.of_set.push_back("few examples: " + some_text(few));
     if (without_camera > 0)
         contents.of_set.push_back(ism::join_text(without_camera,
                                                  without_camera == 1 ? " image has" : " images have",
@@ -314,10 +325,11 @@ void run_inspect(const InspectCommand& command) {
     for (const auto& [kind, list] : contents.by_kind) remarks += list.size();
     summary.emplace_back("remarks", std::to_string(remarks));
 
-    const auto table = class_table(dataset, examples, with_depth > 0);
+    auto table = class_table(dataset, examples, with_depth > 0);
     if (!command.report.empty())
         write_page(command.report, page_of(dataset, contents, examples, summary, table), command.page);
     for (const auto& [what, value] : summary) std::printf("%-16s%s\n", what.c_str(), value.c_str());
+    for (auto& row : table) row[0] = ism::shortened(ism::one_line(row[0]), 32);
     std::printf("\n%s", ism::align_columns(table).c_str());
     if (remarks > 0) std::printf("\nWhat looks wrong:\n");
     for (const std::string& text : contents.of_set) std::printf("  %s\n", ism::one_line(text).c_str());

@@ -67,6 +67,21 @@ says "0.001 would make it" odd.txt
 says "&lt;b&gt;&amp;鸭 بطة" odd.html
 ! grep -q '<b>' odd.html || fail "odd.html: a name became markup"
 
+# Remarks of a kind are one line, names are short and in a line, and of two sizes the median is between them.
+{
+    printf '{"images":[{"id":1,"file_name":"toys/test/test-0000.png","width":320,"height":240}],"annotations":['
+    printf '{"id":1,"image_id":1,"category_id":1,"bbox":[10,10,20,20]},{"id":2,"image_id":1,"category_id":1,"bbox":[90,90,40,40]}],'
+    printf '"categories":[{"id":1,"name":"%0200d\\u001b"}' 0
+    for number in {2..20}; do printf ',{"id":%d,"name":"c%d"}' $number $number; done
+    printf ']}'
+} >names.json
+"$ism" inspect --data names.json --report names.html >names.txt
+says "20 … 30 … 40" names.txt
+says "classes without objects: c2, c3, c4, c5, c6, c7, c8, c9, c10, c11 and 9 more" names.txt
+(($(grep -c "few examples" names.txt) == 1)) || fail "few examples: $(cat names.txt)"
+awk 'length($0) > 100 && !/few examples/ {exit 1}' names.txt || fail "a long name makes the table wide: $(cat names.txt)"
+! grep -q $'\x1b' names.txt || fail "a name goes to the terminal as it is"
+
 # In a browser, on a phone and on a desk: nothing is wider than the screen, nothing is complained of.
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
 if [[ -z $browser ]]; then
@@ -113,8 +128,8 @@ END
 printf '<!DOCTYPE html><p style="width:2000px">wide<script>console.error("wrong")</script>' >wide.html
 [[ $(widths wide.html) == *'wide.html 390 20'* ]] || fail "a wide page is not noticed: $(widths wide.html)"
 grep -q wrong console.txt || fail "a complaint is not noticed"
-widths demo.html detect.html one.html "linked #1.html" inspect.html info.html plain.html odd.html >widths.txt
-(($(wc -l <widths.txt) == 16)) || fail "expected 8 pages on 2 screens, got: $(cat widths.txt browser.err)"
+widths demo.html detect.html one.html "linked #1.html" inspect.html info.html plain.html odd.html names.html >widths.txt
+(($(wc -l <widths.txt) == 18)) || fail "expected 9 pages on 2 screens, got: $(cat widths.txt browser.err)"
 while read -r page screen widest; do
     ((widest <= screen)) || fail "$page is $widest pixels wide on a screen of $screen"
 done <widths.txt
