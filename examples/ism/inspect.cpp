@@ -316,6 +316,8 @@ void run_inspect(const InspectCommand& command) {
                         ? std::to_string(objects)
                         : ism::join_text(objects, ", and ", crowds, " crowds or difficult ones, ignored")},
         {"with depth", std::to_string(with_depth)}};
+    if (!dataset.part.empty())
+        summary.insert(summary.begin(), {"part", dataset.part + ", which ism train reads"});
     if (with_depth > 0) {
         summary.emplace_back("with camera", std::to_string(with_camera));
         summary.emplace_back("depth readings",

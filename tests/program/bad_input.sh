@@ -88,6 +88,13 @@ done
 $line "expected another file than the labels" "$ism" train --data owned -o owned/labels/a.txt
 $line "expected another file than the labels" "$ism" inspect --data owned --report owned/labels/a.txt
 $line "expected another file than the labels" "$ism" detect --model $model --data owned --json owned/labels/a.txt
+"$ism" inspect --data owned >inspect.txt
+! grep -q "^part " inspect.txt || fail "a part of a set that has none: $(cat inspect.txt)"
+mkdir -p parted/train/images
+cp owned/images/a.png parted/train/images
+printf 'train: train/images\nval: valid/images\nnames: [car, mug, duck, robot]\n' >parted/data.yaml
+"$ism" inspect --data parted >inspect.txt
+says "part            train, which ism train reads" inspect.txt
 diff -r owned kept || fail "inputs were written over"
 
 # Images and depth.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -59,6 +60,7 @@ TEST_CASE("YOLO's boxes and outlines are read, of the part that is asked for") {
         const ism::Dataset dataset = ism::read_any_dataset(folder.path() / place);
         CHECK(dataset.class_names == std::vector<std::string>{"cup", "car"});
         CHECK(dataset.classes_listed);
+        CHECK(dataset.part == (std::string_view(place).starts_with("train") ? "" : "train"));
         REQUIRE(dataset.images.size() == 2);
         REQUIRE(dataset.images[0].objects.size() == 2);
         const auto& [box, outline] = std::pair(dataset.images[0].objects[0], dataset.images[0].objects[1]);
@@ -72,6 +74,7 @@ TEST_CASE("YOLO's boxes and outlines are read, of the part that is asked for") {
     const ism::Dataset test = ism::read_any_dataset(folder / "data.yaml", {.part = DatasetPart::test});
     REQUIRE(test.images.size() == 1);  // there is no test/images
     CHECK(test.images[0].file.filename() == "c.pgm");
+    CHECK(test.part == "val");
 }
 
 TEST_CASE("YOLO's labels stand beside the images too, and images in a list") {

@@ -122,7 +122,7 @@ namespace detail {
                                        const DatasetReadOptions& options = {}) {
     const detail::YoloPlaces places = detail::yolo_places(path, options);
     Dataset dataset = detail::folder_dataset(places.root);
-    dataset.class_names = places.names;
+    dataset.class_names = places.names, dataset.part = places.part;
     std::int64_t id = 0;
     for (const auto& place : places.images) {
         const auto files = detail::yolo_files(place, options.part);

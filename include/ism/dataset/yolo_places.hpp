@@ -19,6 +19,7 @@ struct YoloPlaces {
     std::filesystem::path root;
     std::vector<std::string> names;
     std::vector<std::filesystem::path> images;
+    std::string part = {};  ///< which of several was asked for; empty where there is one
 };
 
 /// @brief Calls `use` for each line that is not empty; U+FEFF, which some editors put first, is no part of
@@ -84,6 +85,7 @@ inline void read_yolo_yaml(const std::filesystem::path& file, const DatasetReadO
     std::string key = test ? "test" : "train";
     if (test && (lists[key].empty() || !std::filesystem::exists(yolo_path(root, lists[key][0].value))))
         key = "val";
+    places.part = key;
     for (const YamlItem& item : lists[key]) places.images.push_back(yolo_path(root, item.value));
     if (places.images.empty())
         throw FileError(place + ": expected " + (test ? "'test' or 'val'" : "'train'") +
@@ -113,7 +115,9 @@ inline void read_yolo_yaml(const std::filesystem::path& file, const DatasetReadO
     if (!folder || (is_yaml && !described.empty())) {
         read_yolo_yaml(described, options, places, true);
     } else {
-        places.images = {yolo_images(path, options.part)};
+        const auto images = yolo_images(path, options.part);
+        places.images = {images};
+        if (images != path && images.filename() != "images") places.part = path_to_utf8(images.filename());
         // The names of the classes may stand in a folder above, as in train/ and valid/ beside data.yaml.
         auto above = std::filesystem::absolute(path / "").parent_path();
         for (int up = 0; up <= 2 && described.empty(); ++up, above = above.parent_path())
