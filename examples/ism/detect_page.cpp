@@ -89,20 +89,19 @@ void DetectPage::add(std::size_t k, const ism::RgbImage& picture, ism::Detection
     });
     std::string remark;
     std::vector<ism::ShownLabel> labels;
-    std::vector<ism::Judged> judged;
+    std::span<const ism::Judged> judged;
     if (!mistakes_.empty()) {
         const Mistakes& mistakes = mistakes_[i];
         remark = mistakes.text();
         for (const ism::DatasetAnnotation& object : image.objects)
-            if (!object.crowd)
-                labels.push_back(
-                    {.class_index = index_of(names_, dataset_.class_names[object.class_index]),
-                     .box = object.box,
-                     .mask = ism::read_mask(image, object),
-                     .missed = std::count(mistakes.missed_objects.begin(), mistakes.missed_objects.end(),
-                                          std::size_t(&object - image.objects.data())) > 0});
-        for (const bool wrong : mistakes.wrong_results)
-            judged.push_back(wrong ? ism::Judged::wrong : ism::Judged::right);
+            labels.push_back(
+                {.class_index = index_of(names_, dataset_.class_names[object.class_index]),
+                 .box = object.box,
+                 .mask = object.crowd ? ism::Mask() : ism::read_mask(image, object),
+                 .missed = std::count(mistakes.missed_objects.begin(), mistakes.missed_objects.end(),
+                                      std::size_t(&object - image.objects.data())) > 0,
+                 .ignored = object.crowd});
+        judged = mistakes.judged;
     }
     pages_[k] = ism::detection_pages(image_names_[i], picture, detections, names_,
                                      {.rows = rows,
@@ -122,7 +121,10 @@ ism::Report DetectPage::report(std::string title,
         report.summary.emplace_back("shown here",
                                     ism::join_text("the ", labelled ? "" : "first ", pages_.size(), " images",
                                                    labelled ? " with the worst mistakes" : ""));
-    report.legend = ism::detection_legend(names_, labelled);
+    const bool ignored = std::any_of(dataset_.images.begin(), dataset_.images.end(), [](const auto& image) {
+        return labelled_objects(image) < std::ptrdiff_t(image.objects.size());
+    });
+    report.legend = ism::detection_legend(names_, labelled, ignored);
     report.layers = ism::detection_layers(labelled);
     if (labelled) {
         ism::ReportGallery gallery;

@@ -21,6 +21,15 @@ std::string Mistakes::text() const {
     return text;
 }
 
+namespace {
+
+ism::Judged judged_as(ism::Verdict verdict) {
+    if (verdict == ism::Verdict::ignored) return ism::Judged::ignored;
+    return verdict == ism::Verdict::true_positive ? ism::Judged::right : ism::Judged::wrong;
+}
+
+}  // namespace
+
 std::vector<Mistakes> find_mistakes(const ism::Dataset& dataset,
                                     std::span<const std::vector<ism::Result>> of_image) {
     const ism::detail::DatasetTruth labels = ism::detail::truth_of(dataset);
@@ -34,8 +43,8 @@ std::vector<Mistakes> find_mistakes(const ism::Dataset& dataset,
     for (std::size_t f = 0; f < found.size(); ++f) {
         if (judgements[f].verdict == ism::Verdict::true_positive) seen[judgements[f].truth] = true;
         Mistakes& here = mistakes[found[f].image];
-        here.wrong_results.push_back(judgements[f].verdict == ism::Verdict::false_positive);
-        if (!here.wrong_results.back()) continue;
+        here.judged.push_back(judged_as(judgements[f].verdict));
+        if (here.judged.back() != ism::Judged::wrong) continue;
         std::string text = dataset.class_names[found[f].class_index];
         if (!std::isnan(results[f].probability))
             text += ism::join_text(" ", std::lround(100 * results[f].probability), " %");

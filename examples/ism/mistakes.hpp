@@ -9,6 +9,7 @@
 
 #include "ism/dataset/coco_results.hpp"
 #include "ism/dataset/dataset.hpp"
+#include "ism/show/report_detections.hpp"
 
 namespace program {
 
@@ -16,7 +17,7 @@ namespace program {
 struct Mistakes {
     std::vector<std::string> missed = {}, wrong = {};  ///< classes, and of wrong detections how probable
     std::vector<std::size_t> missed_objects = {};      ///< the same as indices into the image's objects
-    std::vector<bool> wrong_results = {};              ///< of each result
+    std::vector<ism::Judged> judged = {};              ///< each result
     std::vector<double> weights = {};  ///< 1 of each object missed, then how probable what is wrong is
     double weight = 0;                 ///< the sum
 

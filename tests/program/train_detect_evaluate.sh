@@ -57,6 +57,13 @@ says "templates       yes" info.txt
 "$ism" detect --model model-1 --data toys/test.json -o none --min-score 1 --report missed.html >/dev/null
 says "test-0000.png: missed: " missed.html
 
+# What is found on a crowd is neither right nor wrong, and drawn as what it is.
+sed -E '/"image_id":1,/s/"iscrowd":0/"iscrowd":1/' toys/test.json >toys/crowd.json
+grep -q '"iscrowd":1' toys/crowd.json || sed -E '/"image_id":1,/s/"category_id"/"iscrowd":1,&/' toys/test.json >toys/crowd.json
+"$ism" detect --model model-1 --data toys/crowd.json -o crowd --report crowd.html >/dev/null
+for text in "ignored: a crowd, or difficult" 'class="truth ignored"' ", ignored</span>"; do says "$text" crowd.html; done
+! grep -qF "ignored: a crowd" report-1.html || fail "crowds in the legend of a set without any"
+
 # Only what is probable; and the paper's way, votes alone, of a model without templates.
 "$ism" detect --model model-1 --data toys/test.json -o probable --space ji3sm3 --min-score 0.5 >/dev/null
 (($(grep -c image_id probable) <= $(grep -c image_id found-1))) || fail "--min-score tells more"

@@ -271,6 +271,27 @@ TEST_CASE("Outlines of a mask enclose its pixels and leave out its holes") {
     }
 }
 
+TEST_CASE("What is found on a crowd is shown as ignored, and alternative text tells what labels tell") {
+    ism::Detections detections;
+    detections.objects.resize(3);
+    for (ism::Detection& one : detections.objects) one.box = {10, 4, 12, 8};
+    const std::vector<std::string> names{"cup"};
+    const std::vector<ism::ShownLabel> labels{{.box = {2, 2, 5, 5}, .missed = true},
+                                              {.box = {8, 2, 30, 15}, .ignored = true}};
+    const std::vector<ism::Judged> judged{ism::Judged::right, ism::Judged::wrong, ism::Judged::ignored};
+    const ism::DetectionPages pages = ism::detection_pages("a.png", ism::RgbImage(40, 20), detections, names,
+                                                           {.labels = labels, .judged = judged});
+    REQUIRE(pages.mistakes.size() == 2);  // what is missed, and what is wrong
+    const std::string html =
+        ism::to_html({.legend = ism::detection_legend(names, true, true), .sections = {pages.section}});
+    CHECK(
+        contains(html, "aria-label=\"a.png, 3 detections: ✓ cup 0, ✗ cup 0, cup 0, ignored, missed: cup\""));
+    CHECK(contains(html, ">cup 0, ignored</span>"));
+    CHECK(contains(html, "class=\"truth ignored\""));
+    CHECK(contains(html, "></i>ignored: a crowd, or difficult</li>"));
+    CHECK_FALSE(contains(ism::to_html({.legend = ism::detection_legend(names, true)}), "ignored:"));
+}
+
 TEST_CASE("The section on an image tells why each detection was found") {
     ism::Detections detections;
     detections.features = {{.x = 12, .y = 8, .scale = 2, .depth_m = 0.75f}, {.x = 20, .y = 9, .scale = 1}};

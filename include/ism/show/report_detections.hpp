@@ -22,12 +22,13 @@ namespace ism {
 struct ShownLabel {
     std::uint32_t class_index = 0;
     Box box;
-    Mask mask = {};       ///< of the image's size; empty = none
-    bool missed = false;  ///< no detection found it
+    Mask mask = {};        ///< of the image's size; empty = none
+    bool missed = false;   ///< no detection found it
+    bool ignored = false;  ///< a crowd, or difficult: neither right nor wrong where it is found
 };
 
-/// @brief Whether a detection is right, where labels tell.
-enum class Judged { unknown, right, wrong };
+/// @brief Whether a detection is right, where labels tell; ignored where it lies on what is to be ignored.
+enum class Judged { unknown, right, wrong, ignored };
 
 /// @brief How much a report says about one image.
 struct DetectionReportOptions {
@@ -51,6 +52,12 @@ struct DetectionPages {
     std::vector<ReportFigure> mistakes = {};  ///< each missed object and wrong detection, for a list of them
 };
 
+namespace detail {
+
+inline constexpr Rgb ignored_color{160, 160, 160};
+
+}  // namespace detail
+
 /// @brief What can be hidden in the figures of detections.
 [[nodiscard]] inline std::vector<ReportLayer> detection_layers(bool labels) {
     std::vector<ReportLayer> layers = {{"found", "boxes"}, {"mask", "masks"}, {"label", "names"}};
@@ -58,12 +65,14 @@ struct DetectionPages {
     return layers;
 }
 
-/// @brief The colours of classes and, where labels are shown, what they look like.
+/// @brief The colours of classes and, where labels are shown, what they look like, with what is to be
+/// ignored.
 [[nodiscard]] inline std::vector<ReportKey> detection_legend(std::span<const std::string> class_names,
-                                                             bool labels) {
+                                                             bool labels, bool ignored = false) {
     std::vector<ReportKey> legend;
     for (std::size_t c = 0; c < class_names.size(); ++c) legend.push_back({class_names[c], class_color(c)});
     if (labels) legend.push_back({"labelled object", white, true});
+    if (labels && ignored) legend.push_back({"ignored: a crowd, or difficult", detail::ignored_color, true});
     return legend;
 }
 
@@ -84,7 +93,7 @@ namespace detail {
 [[nodiscard]] inline std::string labelled_svg(const ShownLabel& label) {
     const std::string outline = mask_path(label.mask);
     std::string svg = "<g class=\"labelled\">";
-    for (const char* line : {"truth under", "truth"})
+    for (const char* line : {"truth under", label.ignored ? "truth ignored" : "truth"})
         svg += outline.empty() ? svg_box(label.box, std::string("class=\"") + line + "\"")
                                : std::string("<path class=\"") + line + "\" d=\"" + outline + "\"/>";
     return svg + "</g>\n";
@@ -93,7 +102,7 @@ namespace detail {
 [[nodiscard]] inline std::string judged_text(const Detection& detection, std::span<const std::string> names,
                                              Judged judged) {
     const char* mark = judged == Judged::right ? "✓ " : judged == Judged::wrong ? "✗ " : "";
-    return mark + label_text(detection, names);
+    return mark + label_text(detection, names) + (judged == Judged::ignored ? ", ignored" : "");
 }
 
 /// A box with some of its surroundings, as far as there are any.
@@ -153,8 +162,10 @@ namespace detail {
         const Detection& one = detections.objects[i];
         all.labels.push_back(
             {one.box, detail::judged_text(one, class_names, judged(i)), class_color(one.class_index)});
-        names += join_text(i > 0 ? ", " : ": ", detail::label_text(one, class_names));
+        names += (i > 0 ? ", " : ": ") + detail::judged_text(one, class_names, judged(i));
     }
+    for (const ShownLabel& label : options.labels)
+        if (label.missed) names += ", missed: " + class_names[label.class_index];
     constexpr Rgb missed_color{196, 28, 40};
     const std::string where = options.id.empty() ? "" : "#" + options.id;
     for (const ShownLabel& label : options.labels) {

@@ -57,6 +57,7 @@ svg { max-width: 100%; height: auto; }
   max-width: 100%; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
 .label.above { transform: translateY(-100%); }
 .truth { fill: none; stroke: #fff; stroke-width: 2; stroke-dasharray: 6 4; }
+.ignored { stroke: #a0a0a0; }
 .under { stroke: #000; stroke-opacity: .65; stroke-width: 4; stroke-dasharray: none; }
 .plot, .matrix { fill: var(--ink); }
 .plot > rect { fill: none; }
