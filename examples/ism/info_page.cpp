@@ -288,7 +288,10 @@ ism::ReportSection class_section(const ism::Model& model, std::size_t c, const s
     }
     if (!objects.empty()) {
         const std::size_t shown = std::min(objects.size(), objects_a_class);
-        ism::ReportSection masks{.title = ism::join_text("Training objects: ", objects.size())};
+        ism::ReportSection masks{
+            .title = shown < objects.size()
+                         ? ism::join_text("Training objects: ", shown, " of ", objects.size(), " are shown")
+                         : ism::join_text("Training objects: ", objects.size())};
         ism::ReportGallery gallery;
         for (std::size_t k = 0; k < shown; ++k)  // evenly from all
             gallery.figures.push_back(object_figure(*objects[k * objects.size() / shown], c));
@@ -370,6 +373,11 @@ ism::Report model_report(const ism::Model& model, const std::string& title, cons
     }
     for (std::size_t c = 0; c < std::min(classes, most_classes); ++c)
         report.sections.push_back(class_section(model, c, counts, sources ? &*sources : nullptr));
+    if (classes > most_classes)
+        report.sections.push_back({.title = ism::join_text("… and ", classes - most_classes, " more classes"),
+                                   .parts = {ism::ReportText{ism::join_text(
+                                       "The first ", most_classes, " of ", classes,
+                                       " classes are shown; the table above tells of all.")}}});
     ism::ReportSection settings{.title = "Settings", .folded = true};
     for (const ism::Channel& channel : model.channels) {
         ism::ReportTable rows{.caption = "features"};

@@ -51,6 +51,11 @@ for command in "inspect --data toys/train.json" "info $model"; do
 done
 for text in "labelled object" "Mistakes: " "Precision and recall" "mean"; do says "$text" detect.html; done
 says "as it was seen" info.html
+sed -E 's/"category_id":[0-9]+/"category_id":1/' toys/train.json >toys/one-class.json
+"$ism" train --data toys/one-class.json -o one-class --no-templates --no-depth >/dev/null
+"$ism" info one-class --report many.html >/dev/null
+says "Training objects: 12 of 24 are shown" many.html
+! grep -q "are shown" info.html || fail "info.html: all 6 objects of each class fit, and yet some are left out"
 ! grep -q "as it was seen" plain.html || fail "words are shown without a data set"
 for text in "images          " "car  " "size px"; do says "$text" inspect.txt; done
 refused_in_a_line "expected an existing folder to write to, got none" \
