@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The ism authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
@@ -269,6 +270,26 @@ TEST_CASE("Outlines of a mask enclose its pixels and leave out its holes") {
             }
         CHECK(area == 2 * pixels);
     }
+}
+
+TEST_CASE("Columns of words may break, those of numbers stand to the right") {
+    const std::string html = ism::to_html(
+        {.sections = {
+             {.parts = {ism::ReportTable{.header = {"class", "objects", "most like", "AP %"},
+                                         .rows = {{"7 up", "12", "", "-"}, {"x", "3", "Cup 7", "98.2"}}}}}}});
+    CHECK(contains(html,
+                   "<th scope=\"col\" class=\"text\">class</th><th scope=\"col\">objects</th>"
+                   "<th scope=\"col\" class=\"text\">most like</th><th scope=\"col\">AP %</th>"));
+    CHECK(contains(html, "<td class=\"text\">7 up</td><td>12</td><td class=\"text\"></td><td>-</td>"));
+}
+
+TEST_CASE("Words on the colour of any class have a contrast of 4.5 or more") {
+    for (std::size_t c = 0; c < 200; ++c) {
+        const double ground = ism::luminance(ism::class_color(c));
+        const double ink = ism::luminance(ism::ink_on(ism::class_color(c)));
+        CHECK((std::max(ground, ink) + 0.05) / (std::min(ground, ink) + 0.05) >= 4.5);
+    }
+    CHECK(ism::luminance(ism::white) == Approx(1));
 }
 
 TEST_CASE("What is found on a crowd is shown as ignored, and alternative text tells what labels tell") {

@@ -27,9 +27,18 @@ inline constexpr Rgb black{0, 0, 0}, white{255, 255, 255};
     return (0.299 * c.r + 0.587 * c.g + 0.114 * c.b) / 255;
 }
 
-/// @brief Black or white, whichever reads better on the colour.
-[[nodiscard]] constexpr Rgb ink_on(Rgb ground) {
-    return brightness(ground) > 0.55 ? black : white;
+/// @brief Relative luminance of a colour, 0 … 1 (WCAG 2.1; sRGB as IEC 61966-2-1 has it).
+[[nodiscard]] inline double luminance(Rgb c) {
+    const auto linear = [](std::uint8_t channel) {
+        const double value = channel / 255.0;
+        return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
+}
+
+/// @brief Black or white, whichever has more contrast with the colour (WCAG 2.1): 4.5 or more with any.
+[[nodiscard]] inline Rgb ink_on(Rgb ground) {
+    return luminance(ground) > 0.179 ? black : white;
 }
 
 /// @brief 0 black … 1 white; NaN is black.

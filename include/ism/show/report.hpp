@@ -47,20 +47,37 @@ using PagePictures = std::vector<const ReportPicture*>;
     return element("p", part.text) + "\n";
 }
 
+/// Whether a column holds words: the first does, and those with a letter at the beginning of a cell.
+[[nodiscard]] inline bool is_text_column(const ReportTable& table, std::size_t column) {
+    return column == 0 || table.header.empty() ||
+           std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+               if (column >= row.size() || row[column].empty()) return false;
+               const auto byte = static_cast<unsigned char>(row[column][0] | 0x20);  // of a small letter
+               return byte >= 'a' && byte <= 'z';
+           });
+}
+
 [[nodiscard]] inline std::string to_html(const ReportTable& part, PagePictures&) {
-    std::string html = part.header.empty() ? "<div class=\"wide facts\"><table>\n"
+    std::string html = part.header.empty() ? "<div class=\"wide\"><table>\n"
                                            : "<div class=\"wide\" tabindex=\"0\"><table>\n";
+    std::vector<const char*> kinds;  // of columns
+    const auto kind = [&](std::size_t column) {
+        while (kinds.size() <= column)
+            kinds.push_back(is_text_column(part, kinds.size()) ? " class=\"text\"" : "");
+        return kinds[column];
+    };
     if (!part.caption.empty()) html += element("caption", part.caption) + "\n";
     if (!part.header.empty()) {
         html += "<thead><tr>";
-        for (const std::string& cell : part.header)
-            html += "<th scope=\"col\">" + escape_markup(cell) + "</th>";
+        for (std::size_t i = 0; i < part.header.size(); ++i)
+            html += join_text("<th scope=\"col\"", kind(i), ">", escape_markup(part.header[i]), "</th>");
         html += "</tr></thead>\n";
     }
     html += "<tbody>\n";
     for (const auto& row : part.rows) {
         html += "<tr>";
-        for (const std::string& cell : row) html += element("td", cell);
+        for (std::size_t i = 0; i < row.size(); ++i)
+            html += join_text("<td", kind(i), ">", escape_markup(row[i]), "</td>");
         html += "</tr>\n";
     }
     return html + "</tbody></table></div>\n";

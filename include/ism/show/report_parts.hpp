@@ -19,7 +19,8 @@ struct ReportText {
     std::string text;
 };
 
-/// @brief A table; the first column is text, the others stand to the right as numbers do.
+/// @brief A table; columns of words, such as the first, break long ones, the others stand to the right as
+/// numbers do.
 struct ReportTable {
     std::string caption = {};
     std::vector<std::string> header = {};

@@ -17,7 +17,7 @@ inline constexpr std::string_view report_style = R"(
 * { box-sizing: border-box; }
 body { font: 16px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--page); margin: 0; }
 main { max-width: 1100px; margin: 0 auto; padding: 1rem; }
-h1 { font-size: 1.7rem; line-height: 1.2; margin: .5rem 0 1rem; }
+h1 { font-size: 1.7rem; line-height: 1.2; margin: .5rem 0 1rem; overflow-wrap: anywhere; }
 h2, h3, h4 { line-height: 1.25; margin: 0 0 .6rem; overflow-wrap: anywhere; }
 h2 { font-size: 1.25rem; } h3 { font-size: 1.05rem; } h4 { font-size: 1rem; }
 a { color: var(--link); text-decoration: none; }
@@ -35,15 +35,15 @@ dd { margin: 0; font-size: 1.1rem; font-weight: 600; overflow-wrap: anywhere; }
 .legend li { overflow-wrap: anywhere; }
 .legend i { display: inline-block; width: 1.5rem; height: .8rem; margin-right: .4rem; vertical-align: -.05rem;
   border: 2px solid var(--c); border-radius: 2px; background: color-mix(in srgb, var(--c) 35%, transparent); }
-.legend i.dashed { border-style: dashed; background: #777; }
+.legend i.dashed { border-color: #333; background: #333; outline: 2px dashed var(--c); outline-offset: -3px; }
 .layers label { margin-left: .7rem; white-space: nowrap; }
 .wide { display: inline-block; vertical-align: top; max-width: 100%; overflow-x: auto; margin: 0 2rem 1rem 0; }
 table { border-collapse: collapse; font-size: .93rem; font-variant-numeric: tabular-nums; }
-caption { text-align: left; color: var(--soft); padding-bottom: .3rem; }
+caption { text-align: left; color: var(--soft); padding-bottom: .3rem; overflow-wrap: anywhere; }
 th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; padding-left: 0; }
+th.text, td.text { text-align: left; white-space: normal; overflow-wrap: anywhere; min-width: 6rem; max-width: 26rem; }
+th:first-child, td:first-child { padding-left: 0; }
 th { font-weight: 600; white-space: normal; vertical-align: bottom; }
-.facts td { white-space: normal; }
 figure { margin: 0 0 1rem; max-width: 100%; }
 figcaption { color: var(--soft); font-size: .9rem; line-height: 1.35; margin-top: .3rem; overflow-wrap: anywhere; }
 .gallery { display: flex; flex-wrap: wrap; gap: 0 1rem; align-items: flex-start; }
