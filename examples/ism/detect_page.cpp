@@ -31,11 +31,12 @@ ism::ReportSection figures_section(const ism::Dataset& dataset, std::span<const 
                                    const std::vector<std::string>& names) {
     const ism::Evaluation evaluation = ism::evaluate(dataset, results);
     ism::ReportTable table{.header = {"class", "objects", "right", "missed", "wrong", "AP %", "mask IoU %"}};
-    ism::Plot plot = ism::precision_recall_plot(evaluation);
+    std::vector<ism::Rgb> colors;
+    for (const ism::ClassEvaluation& one : evaluation.classes)
+        colors.push_back(ism::class_color(index_of(names, one.name)));
+    ism::Plot plot = ism::precision_recall_plot(evaluation, "Precision and recall", colors);
     plot.width_px = 380, plot.height_px = 320;
-    std::size_t curve = 0;
     for (const ism::ClassEvaluation& one : evaluation.classes) {
-        if (one.objects > 0) plot.curves[curve++].color = ism::class_color(index_of(names, one.name));
         if (one.objects + one.detections == 0) continue;
         table.rows.push_back({one.name, std::to_string(one.objects), std::to_string(one.true_positives),
                               std::to_string(one.objects - one.true_positives),

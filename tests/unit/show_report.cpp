@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -151,7 +152,35 @@ TEST_CASE("Precision-recall curves begin at recall 0 and leave out classes witho
     REQUIRE(plot.curves.size() == 1);
     CHECK(plot.curves[0].x == std::vector<double>{0, 0.5});
     CHECK(plot.curves[0].y == std::vector<double>{1, 1});
-    CHECK(plot.curves[0].name == "cup, AP 50.0 %");
+    CHECK(plot.curves[0].name == "AP 50.0 %, cup");
+    const ism::Rgb color{1, 2, 3};
+    const auto colored = ism::precision_recall_plot(
+        ism::evaluate(truth, found, 2, std::vector<std::string>{std::string(100, 'n'), "pot"},
+                      ism::IouRule{}),
+        "t", std::span(&color, 1));
+    CHECK(colored.curves[0].color == color);
+    CHECK(colored.curves[0].name.size() < 45);
+}
+
+TEST_CASE("Of many classes the plot shows the mean and the worst") {
+    const ism::Box box{0, 0, 10, 10};
+    std::vector<std::string> names;
+    std::vector<ism::TruthObject> truth;
+    std::vector<ism::FoundObject> found;
+    for (std::uint32_t c = 0; c < 20; ++c) {
+        names.push_back("c" + std::to_string(c));
+        truth.push_back({c, c, box}), truth.push_back({c + 20, c, box});
+        found.push_back({c, c, box, 0.9});
+        if (c != 7) found.push_back({c + 20, c, box, 0.8});
+    }
+    const ism::Plot plot = ism::precision_recall_plot(ism::evaluate(truth, found, 40, names, ism::IouRule{}));
+    REQUIRE(plot.curves.size() == 6);
+    CHECK(plot.curves[0].name == "AP 97.5 %, mean of 20 classes");
+    CHECK(plot.curves[0].y[50] == 1);
+    CHECK(plot.curves[0].y[51] == Approx(0.95));
+    CHECK(plot.curves[1].name == "AP 50.0 %, c7");
+    CHECK(plot.curves[1].color == ism::class_color(7));
+    CHECK(plot.curves[2].name == "AP 100.0 %, c0");
 }
 
 TEST_CASE("A confusion matrix is darkest where all images of a class are") {
