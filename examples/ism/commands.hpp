@@ -77,6 +77,7 @@ struct DetectCommand {
     SearchOptions search = {};
     std::filesystem::path results = {}, json = {};           ///< empty = none, "-" = standard output
     bool show = false;                                       ///< write an overlay beside each image
+    std::size_t report_most = 12;                            ///< images that the report shows
     std::filesystem::path overlay_folder = {}, report = {};  ///< empty = none
     PageOptions page = {};
     unsigned threads = 0;

@@ -31,8 +31,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Pictures in a report: of so many images, with the four pictures of so many detections each.
-constexpr std::size_t report_images = 12, report_rows = 2;
+/// Detections of an image that a report explains, with four pictures each.
+constexpr std::size_t report_rows = 2;
 
 /// Whether --space auto can choose metric: the model knows it, and nothing is asked for that is not of it.
 bool metric_allowed(const ism::Model& model, const SearchOptions& search) {
@@ -299,7 +299,7 @@ void write_report(Searcher& searcher, const DetectCommand& command, const Detect
                   const Outcome& outcome) {
     std::vector<std::vector<ism::Result>> results;
     for (const FoundInImage& image : outcome.found) results.push_back(image.results);
-    DetectPage page(input.dataset, results, input.model.shapes.class_names, input.names, report_images);
+    DetectPage page(input.dataset, results, input.model.shapes.class_names, input.names, command.report_most);
     searcher.pool.for_each(page.images().size(), [&](std::size_t k, unsigned worker) {
         const auto frame = frame_of(input, page.images()[k]);
         page.add(k, frame->color, searcher.find(*frame, worker, true), report_rows, command.page,

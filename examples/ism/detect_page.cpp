@@ -114,14 +114,27 @@ void DetectPage::add(std::size_t k, const ism::RgbImage& picture, ism::Detection
                                       .id = ism::join_text("image-", i + 1)});
 }
 
+std::string DetectPage::shown_text() const {
+    const std::string shown = ism::join_text(pages_.size(), " of ", results_.size(), " images");
+    if (mistakes_.empty()) return shown + ": the first";
+    const auto with = std::size_t(std::count_if(images_.begin(), images_.end(),
+                                                [&](std::size_t i) { return mistakes_[i].weight > 0; }));
+    if (with == pages_.size()) return shown + ": the worst mistakes";
+    if (with == 0) return shown + ": the first, for there are no mistakes";
+    return ism::join_text(shown, ": ", with, " with mistakes, then the first without");
+}
+
 ism::Report DetectPage::report(std::string title,
                                std::vector<std::pair<std::string, std::string>> summary) const {
     const bool labelled = !mistakes_.empty();
     ism::Report report{.title = std::move(title), .summary = std::move(summary)};
-    if (pages_.size() < results_.size())
-        report.summary.emplace_back("shown here",
-                                    ism::join_text("the ", labelled ? "" : "first ", pages_.size(), " images",
-                                                   labelled ? " with the worst mistakes" : ""));
+    if (pages_.size() < results_.size()) report.summary.emplace_back("shown here", shown_text());
+    std::size_t explained = 0, detections = 0;
+    for (const ism::DetectionPages& page : pages_) explained += page.section.sections.size();
+    for (const auto& results : results_) detections += results.size();
+    if (explained < detections)
+        report.summary.emplace_back("explained here",
+                                    ism::join_text(explained, " of ", detections, " detections"));
     const bool ignored = std::any_of(dataset_.images.begin(), dataset_.images.end(), [](const auto& image) {
         return labelled_objects(image) < std::ptrdiff_t(image.objects.size());
     });
@@ -147,8 +160,8 @@ ism::Report DetectPage::report(std::string title,
                 ism::ReportText{"None: every labelled object was found, and nothing else."});
         if (gallery.figures.size() < missed + wrong)
             section.parts.push_back(ism::ReportText{
-                ism::join_text("The worst ", gallery.figures.size(),
-                               pages_.size() < results_.size() ? " in the images shown:" : ":")});
+                ism::join_text("The worst ", gallery.figures.size(), " of ", missed + wrong,
+                               pages_.size() < results_.size() ? ", in the images shown:" : ":")});
         section.parts.push_back(std::move(gallery));
         report.sections.push_back(std::move(section));
         std::vector<ism::Result> all;

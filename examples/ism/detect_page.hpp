@@ -39,6 +39,9 @@ public:
                                      std::vector<std::pair<std::string, std::string>> summary) const;
 
 private:
+    /// How many images are shown, and which.
+    [[nodiscard]] std::string shown_text() const;
+
     const ism::Dataset& dataset_;
     const std::vector<std::vector<ism::Result>>& results_;
     std::vector<std::string> names_;  // of the model's classes, then of others in labels

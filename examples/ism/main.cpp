@@ -224,7 +224,13 @@ void add_detect(CLI::App& parent, program::DetectCommand& command) {
                "look at each image turned by so many angles: finds objects that lie turned by a model that "
                "knows them upright; 24 for any angle, which takes 24 times as long");
     app.add_option("--overlay", command.overlay_folder, "folder for pictures of what was found and why");
-    add_report_images(app, app.add_option("--report", command.report, "HTML page to write"), command.page);
+    CLI::Option* report = app.add_option("--report", command.report, "HTML page to write");
+    add_report_images(app, report, command.page);
+    add_number(
+        app, "--report-most", command.report_most, {1, 1e6, "1 or more"},
+        "images that the page shows, and explains two detections each: where labels tell, those with the "
+        "worst mistakes, else the first")
+        ->needs(report);
     add_threads(app, command.threads);
     add_skip_bad(app, command.skip_bad);
     app.callback([&command, data, images] {

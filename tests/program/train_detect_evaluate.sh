@@ -57,6 +57,16 @@ says "templates       yes" info.txt
 "$ism" detect --model model-1 --data toys/test.json -o none --min-score 1 --report missed.html >/dev/null
 says "test-0000.png: missed: " missed.html
 
+# How much a report shows of how much, in words that are true.
+"$ism" detect --model model-1 --data toys/test.json -o some --report some.html --report-most 1 >/dev/null
+says "1 of 2 images: " some.html
+says "explained here" some.html
+"$ism" detect --model model-1 toys/test --report some.html --report-most 1 >/dev/null 2>&1
+says "1 of 2 images: the first" some.html
+refused_in_a_line "--report-most: expected a whole number, 1 or more, got '0'" \
+    "$ism" detect --model model-1 --data toys/test.json -o out --report out.html --report-most 0
+refused_in_a_line "--report" "$ism" detect --model model-1 --data toys/test.json -o out --report-most 3
+
 # What is found on a crowd is neither right nor wrong, and drawn as what it is.
 sed -E '/"image_id":1,/s/"iscrowd":0/"iscrowd":1/' toys/test.json >toys/crowd.json
 grep -q '"iscrowd":1' toys/crowd.json || sed -E '/"image_id":1,/s/"category_id"/"iscrowd":1,&/' toys/test.json >toys/crowd.json
