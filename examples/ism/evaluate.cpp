@@ -84,9 +84,10 @@ void leave_out_unknown(const ism::Dataset& dataset, std::vector<ism::Result>& re
         return !known;
     });
     if (left_out == 0) return;
-    std::fprintf(stderr, "ism: note: %zu of %zu results are left out: no label names %s (labels name %s)\n",
-                 left_out, left_out + results.size(), list_text(unknown).c_str(),
-                 dataset.class_names.empty() ? "nothing" : list_text(dataset.class_names).c_str());
+    std::fprintf(
+        stderr, "ism: note: %zu of %zu results are left out: no label names %s (labels name %s)\n", left_out,
+        left_out + results.size(), ism::one_line(list_text(unknown)).c_str(),
+        dataset.class_names.empty() ? "nothing" : ism::one_line(list_text(dataset.class_names)).c_str());
 }
 
 /// Tells where results end at a probability, as those of ism detect do by default.

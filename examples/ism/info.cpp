@@ -32,7 +32,7 @@ void run_info(const InfoCommand& command) {
     const ism::TrainingSummary& training = model.training;
     std::printf("format          ism model, version %lld\n",
                 static_cast<long long>(ism::detail::model_format_version));
-    std::printf("classes         %s\n", list_text(model.shapes.class_names).c_str());
+    std::printf("classes         %s\n", ism::one_line(list_text(model.shapes.class_names)).c_str());
     if (!model.shapes.category_ids.empty()) {
         std::vector<std::string> ids;
         for (const std::int64_t id : model.shapes.category_ids) ids.push_back(ism::join_text(id));
