@@ -135,9 +135,8 @@ void run_evaluate(const EvaluateCommand& command) {
                 "--plot", "another file than --json", "the same");
     ism::Dataset dataset = read_data(command.data, ism::DatasetPart::test, command.skip_bad);
     check_not_labels(dataset, std::array{command.json, command.plot});
-    const auto is_labelled = [](const ism::DatasetImage& image) { return !image.objects.empty(); };
-    ism::expect<ism::FileError>(std::any_of(dataset.images.begin(), dataset.images.end(), is_labelled),
-                                ism::file_text(command.data), "labels to measure against", "none");
+    ism::expect<ism::FileError>(!dataset.class_names.empty(), ism::file_text(command.data),
+                                "classes, as labels name them, to measure", "none");
     std::vector<ism::Result> results = read_detections(command.detections);
     if (command.skip_bad) leave_out_bad(dataset, results);
     leave_out_unknown(dataset, results);

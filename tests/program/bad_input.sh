@@ -148,7 +148,7 @@ $line "file 'other.json': result 0: image_id: expected an image of data set 'toy
     "$ism" evaluate --data toys/test.json --detections other.json
 $line "expected an array of results, as ism detect -o writes it, got labels" \
     "$ism" evaluate --data toys/test.json --detections toys/test.json
-refused "file 'toys/test': expected labels to measure against, got none" \
+refused "file 'toys/test': expected classes, as labels name them, to measure, got none" \
     "$ism" evaluate --data toys/test --detections toys/detections-jism.json
 "$ism" detect --model $model toys/test/test-0000.png --json lines.json 2>/dev/null
 $line "file 'lines.json': expected an array of results, as ism detect -o writes it, got an object" \

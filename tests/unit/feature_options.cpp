@@ -181,8 +181,8 @@ TEST_CASE("brightness of another unit is refused with its place, by extractor an
     auto image = noise(40, 30, 6);
     for (const float value : {3e38f, -3e38f, 4.1f, INFINITY, NAN}) {
         image(7, 29) = value;
-        const std::string message = ism::join_text(
-            "image brightness at (7, 29): expected 0 to 1 (accepted: -4 to 4), got ", value);
+        const std::string message =
+            ism::join_text("image brightness at (7, 29): expected 0 to 1 (accepted: -4 to 4), got ", value);
         CHECK_THROWS_WITH((ism::extract(image.view(), ism::Extractor<ism::HessianLaplace, ism::Sift>{})),
                           message);
         CHECK_THROWS_WITH(ism::ScaleSpace().build(image.view()), message);
