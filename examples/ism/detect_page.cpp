@@ -20,6 +20,18 @@ std::uint32_t index_of(const std::vector<std::string>& names, const std::string&
     return std::uint32_t(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+/// Takes the folder that all names have in common off them.
+/// @return that folder; empty where there is none, or one name
+std::string take_folder(std::vector<std::string>& names) {
+    if (names.size() < 2) return {};
+    std::string folder = names[0].substr(0, names[0].rfind('/') + 1);
+    for (const std::string& name : names)
+        while (!name.starts_with(folder))
+            folder.resize(folder.size() < 2 ? 0 : folder.rfind('/', folder.size() - 2) + 1);
+    for (std::string& name : names) name.erase(0, folder.size());
+    return folder;
+}
+
 /// Without crowds.
 std::ptrdiff_t labelled_objects(const ism::DatasetImage& image) {
     return std::count_if(image.objects.begin(), image.objects.end(),
@@ -63,6 +75,7 @@ DetectPage::DetectPage(const ism::Dataset& dataset, const std::vector<std::vecto
       results_(results),
       names_(class_names.begin(), class_names.end()),
       image_names_(std::move(image_names)),
+      folder_(take_folder(image_names_)),
       images_(results.size()) {
     const bool labelled = std::any_of(dataset.images.begin(), dataset.images.end(),
                                       [](const auto& image) { return !image.objects.empty(); });
@@ -124,10 +137,54 @@ std::string DetectPage::shown_text() const {
     return ism::join_text(shown, ": ", with, " with mistakes, then the first without");
 }
 
+ism::ReportSection DetectPage::mistakes_section() const {
+    std::size_t missed = 0, wrong = 0;
+    for (const Mistakes& one : mistakes_) missed += one.missed.size(), wrong += one.wrong.size();
+    std::vector<std::pair<double, const ism::ReportFigure*>> shown;  // missed objects first, as weights are
+    for (std::size_t k = 0; k < pages_.size(); ++k)
+        for (std::size_t m = 0; m < pages_[k].mistakes.size(); ++m)
+            shown.emplace_back(mistakes_[images_[k]].weights[m], &pages_[k].mistakes[m]);
+    std::stable_sort(shown.begin(), shown.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    ism::ReportGallery gallery;
+    for (std::size_t m = 0; m < std::min(most_mistakes, shown.size()); ++m)
+        gallery.figures.push_back(*shown[m].second);
+    ism::ReportSection section{.title = ism::join_text("Mistakes: ", missed, " missed, ", wrong, " wrong")};
+    if (gallery.figures.empty())
+        section.parts.push_back(ism::ReportText{"None: every labelled object was found, and nothing else."});
+    if (gallery.figures.size() < missed + wrong)
+        section.parts.push_back(ism::ReportText{
+            ism::join_text("The worst ", gallery.figures.size(), " of ", missed + wrong,
+                           pages_.size() < results_.size() ? ", in the images shown:" : ":")});
+    section.parts.push_back(std::move(gallery));
+    return section;
+}
+
+ism::ReportSection DetectPage::images_section() const {
+    ism::ReportSection section{.title = "Images"};
+    ism::ReportGallery gallery;
+    for (const ism::DetectionPages& page : pages_) gallery.figures.push_back(page.thumbnail);
+    section.parts.push_back(std::move(gallery));
+    if (pages_.size() == results_.size()) return section;
+    ism::ReportSection others{.title = "All images in words", .folded = true};
+    ism::ReportTable table{.header = {"image", "objects", "detections", "mistakes"}};
+    for (std::size_t i = 0; i < std::min(results_.size(), most_named); ++i)
+        table.rows.push_back({image_names_[i], std::to_string(labelled_objects(dataset_.images[i])),
+                              std::to_string(results_[i].size()),
+                              mistakes_.empty() ? "" : mistakes_[i].text()});
+    others.parts.push_back(std::move(table));
+    if (results_.size() > most_named)
+        others.parts.push_back(
+            ism::ReportText{ism::join_text("… and ", results_.size() - most_named, " more.")});
+    section.sections.push_back(std::move(others));
+    return section;
+}
+
 ism::Report DetectPage::report(std::string title,
                                std::vector<std::pair<std::string, std::string>> summary) const {
     const bool labelled = !mistakes_.empty();
     ism::Report report{.title = std::move(title), .summary = std::move(summary)};
+    if (!folder_.empty()) report.summary.emplace_back("folder", folder_);
     if (pages_.size() < results_.size()) report.summary.emplace_back("shown here", shown_text());
     std::size_t explained = 0, detections = 0;
     for (const ism::DetectionPages& page : pages_) explained += page.section.sections.size();
@@ -141,53 +198,12 @@ ism::Report DetectPage::report(std::string title,
     report.legend = ism::detection_legend(names_, labelled, ignored);
     report.layers = ism::detection_layers(labelled);
     if (labelled) {
-        ism::ReportGallery gallery;
-        std::size_t missed = 0, wrong = 0;
-        for (const Mistakes& one : mistakes_) missed += one.missed.size(), wrong += one.wrong.size();
-        std::vector<std::pair<double, const ism::ReportFigure*>>
-            shown;  // missed objects first, as weights are
-        for (std::size_t k = 0; k < pages_.size(); ++k)
-            for (std::size_t m = 0; m < pages_[k].mistakes.size(); ++m)
-                shown.emplace_back(mistakes_[images_[k]].weights[m], &pages_[k].mistakes[m]);
-        std::stable_sort(shown.begin(), shown.end(),
-                         [](const auto& a, const auto& b) { return a.first > b.first; });
-        for (std::size_t m = 0; m < std::min(most_mistakes, shown.size()); ++m)
-            gallery.figures.push_back(*shown[m].second);
-        ism::ReportSection section{.title =
-                                       ism::join_text("Mistakes: ", missed, " missed, ", wrong, " wrong")};
-        if (gallery.figures.empty())
-            section.parts.push_back(
-                ism::ReportText{"None: every labelled object was found, and nothing else."});
-        if (gallery.figures.size() < missed + wrong)
-            section.parts.push_back(ism::ReportText{
-                ism::join_text("The worst ", gallery.figures.size(), " of ", missed + wrong,
-                               pages_.size() < results_.size() ? ", in the images shown:" : ":")});
-        section.parts.push_back(std::move(gallery));
-        report.sections.push_back(std::move(section));
+        report.sections.push_back(mistakes_section());
         std::vector<ism::Result> all;
         for (const auto& part : results_) all.insert(all.end(), part.begin(), part.end());
         report.sections.push_back(figures_section(dataset_, all, names_));
     }
-    if (results_.size() > 1) {
-        ism::ReportSection list{.title = "Images"};
-        ism::ReportGallery gallery;
-        for (const ism::DetectionPages& page : pages_) gallery.figures.push_back(page.thumbnail);
-        list.parts.push_back(std::move(gallery));
-        if (pages_.size() < results_.size()) {
-            ism::ReportSection others{.title = "All images in words", .folded = true};
-            ism::ReportTable table{.header = {"image", "objects", "detections", "mistakes"}};
-            for (std::size_t i = 0; i < std::min(results_.size(), most_named); ++i)
-                table.rows.push_back({image_names_[i], std::to_string(labelled_objects(dataset_.images[i])),
-                                      std::to_string(results_[i].size()),
-                                      labelled ? mistakes_[i].text() : ""});
-            others.parts.push_back(std::move(table));
-            if (results_.size() > most_named)
-                others.parts.push_back(
-                    ism::ReportText{ism::join_text("… and ", results_.size() - most_named, " more.")});
-            list.sections.push_back(std::move(others));
-        }
-        report.sections.push_back(std::move(list));
-    }
+    if (results_.size() > 1) report.sections.push_back(images_section());
     for (const ism::DetectionPages& page : pages_) report.sections.push_back(page.section);
     return report;
 }

@@ -41,11 +41,14 @@ public:
 private:
     /// How many images are shown, and which.
     [[nodiscard]] std::string shown_text() const;
+    [[nodiscard]] ism::ReportSection mistakes_section() const;
+    [[nodiscard]] ism::ReportSection images_section() const;
 
     const ism::Dataset& dataset_;
     const std::vector<std::vector<ism::Result>>& results_;
     std::vector<std::string> names_;  // of the model's classes, then of others in labels
     std::vector<std::string> image_names_;
+    std::string folder_;  // of all images, which their names do not repeat
     std::vector<std::size_t> images_;
     std::vector<Mistakes> mistakes_;  // of all images; none without labels
     std::vector<ism::DetectionPages> pages_;
