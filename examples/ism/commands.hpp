@@ -87,7 +87,8 @@ struct DetectCommand {
 struct EvaluateCommand {
     std::filesystem::path data, detections;
     ism::EvaluateOptions options = {};
-    bool coco = false;                           ///< COCO's rule in place of that of the options
+    bool coco = false;                           ///< COCO's rule in place of that of the options …
+    bool masks = false;                          ///< … on masks
     std::filesystem::path json = {}, plot = {};  ///< empty = none
     bool skip_bad = false;
 };

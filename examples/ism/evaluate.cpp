@@ -59,9 +59,10 @@ std::string figures_json(const EvaluateCommand& command, const ism::Dataset& dat
     const bool uiuc = command.options.rule == ism::EvaluateOptions::Rule::uiuc;
     nlohmann::ordered_json root = {{"version", ism::version_text},
                                    {"images", dataset.images.size()},
-                                   {"rule", command.coco ? "coco"
-                                            : uiuc       ? "uiuc"
-                                                         : "iou"}};
+                                   {"rule", command.masks  ? "coco-masks"
+                                            : command.coco ? "coco"
+                                            : uiuc         ? "uiuc"
+                                                           : "iou"}};
     if (!command.coco && !uiuc) root["iou"] = command.options.iou_threshold;
     root.update(figures);
     return ism::detail::indented(root) + "\n";
@@ -151,7 +152,11 @@ void run_evaluate(const EvaluateCommand& command) {
         std::fputs(ism::to_table(evaluation).c_str(), stdout);
     };
     const std::string place = ism::file_text(command.detections);
-    if (command.coco) return tell(ism::at_place(place, [&] { return ism::evaluate_coco(dataset, results); }));
+    if (command.coco)
+        return tell(ism::at_place(place, [&] {
+            return command.masks ? ism::evaluate_coco_masks(dataset, results)
+                                 : ism::evaluate_coco(dataset, results);
+        }));
     const ism::Evaluation evaluation =
         ism::at_place(place, [&] { return ism::evaluate(dataset, results, command.options); });
     if (!command.plot.empty())

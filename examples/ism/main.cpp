@@ -246,17 +246,18 @@ void add_evaluate(CLI::App& parent, program::EvaluateCommand& command) {
                                            "it equals recall (EER), best F1, IoU of masks");
     app.add_option("--data", command.data, data_text)->required();
     app.add_option("--detections", command.detections, "results, COCO JSON")->required();
-    only(app.add_option_function<std::string>(
-             "--rule",
-             [&command](const std::string& rule) {
-                 command.options.rule =
-                     rule == "uiuc" ? ism::EvaluateOptions::Rule::uiuc : ism::EvaluateOptions::Rule::iou;
-                 command.coco = rule == "coco";
-             },
-             "when a box is right: enough overlap (iou), or a centre near enough (uiuc); coco: AP and recall "
-             "as "
-             "its official evaluation tells them of boxes"),
-         {"iou", "uiuc", "coco"})
+    only(
+        app.add_option_function<std::string>(
+            "--rule",
+            [&command](const std::string& rule) {
+                command.options.rule =
+                    rule == "uiuc" ? ism::EvaluateOptions::Rule::uiuc : ism::EvaluateOptions::Rule::iou;
+                command.masks = rule == "coco-masks";
+                command.coco = rule == "coco" || command.masks;
+            },
+            "when a box is right: enough overlap (iou), or a centre near enough (uiuc); AP and recall as the "
+            "official evaluation of COCO tells them of boxes (coco) or of masks (coco-masks)"),
+        {"iou", "uiuc", "coco", "coco-masks"})
         ->default_str("iou");
     const CLI::Option* iou =
         add_number(app, "--iou", command.options.iou_threshold, {1e-9, 1, "above 0, at most 1"},
@@ -266,7 +267,8 @@ void add_evaluate(CLI::App& parent, program::EvaluateCommand& command) {
     add_skip_bad(app, command.skip_bad);
     app.callback([&command, iou, plot] {
         for (const CLI::Option* other : {iou, plot})
-            ism::expect(!command.coco || other->count() == 0, "--rule coco",
+            ism::expect(!command.coco || other->count() == 0,
+                        command.masks ? "--rule coco-masks" : "--rule coco",
                         ism::lazy_text("no ", other->get_name()), "one");
         ism::expect(command.options.rule == ism::EvaluateOptions::Rule::iou || iou->count() == 0,
                     "--rule uiuc", "no --iou", "one");

@@ -41,6 +41,9 @@ says ": AP and EER count only those; ism detect --min-score 0 tells all" note.tx
 "$ism" evaluate --data toys/test.json --detections found-1 --iou 0.99 >strict.txt
 "$ism" evaluate --data toys/test.json --detections found-1 --rule coco --json coco.json >coco.txt
 says "AP50 %" coco.txt
+"$ism" evaluate --data toys/test.json --detections found-1 --rule coco-masks --json masks.json >masks.txt
+says '"rule": "coco-masks"' masks.json
+! cmp -s coco.txt masks.txt || fail "masks are measured as boxes: $(cat masks.txt)"
 says '"ap75"' coco.json
 refused_in_a_line "--rule coco: expected no --iou, got one" \
     "$ism" evaluate --data toys/test.json --detections found-1 --rule coco --iou 0.9

@@ -112,6 +112,61 @@ TEST_CASE("Results with numbers or masks that the data set does not know are ref
     CHECK_THROWS_AS(ism::evaluate(set, good, {.iou_threshold = 1.5}), ism::Error);
 }
 
+TEST_CASE("COCO's rule measures masks as it does boxes") {
+    ism::Dataset set = two_images();
+    set.images[1].objects[0].segmentation = ism::compress_mask(rectangle(5, 5, 10, 10));
+    const auto cut_out = [](std::int64_t image, std::int64_t category, double score, const ism::Mask& mask) {
+        ism::Result result = result_of(image, category, ism::mask_box(mask), score);
+        result.segmentation = ism::compress_mask(mask);
+        return result;
+    };
+    SECTION("rectangles count as their boxes do, and of a crowd without a mask its box") {
+        const std::vector<ism::Result> results{
+            cut_out(90, 7, 0.9, rectangle(0, 0, 10, 9)), cut_out(90, 7, 0.8, rectangle(12, 0, 4, 4)),
+            cut_out(4, 3, 0.7, rectangle(6, 6, 9, 8)), cut_out(90, 3, 0.95, rectangle(14, 2, 5, 5)),
+            cut_out(4, 7, 0.5, rectangle(5, 5, 10, 10))};
+        const ism::CocoEvaluation masks = ism::evaluate_coco_masks(set, results);
+        CHECK(ism::to_json(masks) == ism::to_json(ism::evaluate_coco(set, results)));
+        CHECK(masks.classes[0].figures.ap == Approx(0.9));  // an IoU of .9: nine of ten thresholds
+        CHECK(masks.classes[1].detections == 1);            // the other lies in the crowd
+    }
+    SECTION("what fills half of its box overlaps half") {
+        ism::Mask half(30, 20);
+        for (int y = 0; y < 10; ++y)
+            for (int x = 0; x < 10; ++x) half(x, y) = (x + y) % 2 == 0 || (x == 9 && y == 0) ? 1 : 0;
+        const std::vector<ism::Result> results{cut_out(90, 7, 0.9, half)};  // 51 of 100 pixels
+        CHECK(ism::evaluate_coco(set, results).classes[0].figures.ap == 1);
+        CHECK(ism::evaluate_coco_masks(set, results).classes[0].figures.ap == Approx(0.1));
+        CHECK(ism::evaluate_coco_masks(set, results).classes[0].figures.ap50 == 1);
+    }
+    SECTION("a crowd's mask takes what lies in it, however small") {
+        ism::Mask ring = rectangle(12, 0, 18, 20);
+        for (int y = 5; y < 15; ++y)
+            for (int x = 16; x < 26; ++x) ring(x, y) = 0;
+        set.images[0].objects[1].segmentation = ism::compress_mask(ring);
+        const auto counted = [&](const ism::Mask& mask) {
+            const std::vector<ism::Result> results{cut_out(90, 3, 0.9, mask)};
+            return ism::evaluate_coco_masks(set, results).classes[1].detections;
+        };
+        CHECK(counted(rectangle(12, 0, 3, 3)) == 0);
+        CHECK(counted(rectangle(17, 6, 8, 8)) == 1);  // in its box, but not in it
+    }
+    SECTION("a result without a mask finds nothing; labels and results of boxes alone are refused") {
+        std::vector<ism::Result> results{cut_out(90, 7, 0.8, rectangle(0, 0, 10, 10)),
+                                         result_of(90, 7, {0, 0, 10, 10}, 0.9)};
+        CHECK(ism::evaluate_coco_masks(set, results).classes[0].figures.ap == Approx(0.5));
+        results.erase(results.begin());
+        CHECK_THROWS_WITH(ism::evaluate_coco_masks(set, results),
+                          "results: expected masks (segmentation), got boxes alone");
+        set.images[1].objects[0].segmentation = {};
+        set.images[1].file = "b.png";
+        CHECK_THROWS_WITH(ism::evaluate_coco_masks(set, results),
+                          "label of file 'b.png': expected a mask, to measure masks, got a box alone");
+        set.images[1].objects.clear();
+        CHECK(ism::evaluate_coco_masks(set, {}).classes[0].figures.ap == 0);
+    }
+}
+
 TEST_CASE("The IoU of masks tells of how many it is where some have none") {
     ism::Dataset set = two_images();
     set.images[1].objects[0].class_index = 0;  // a second cup, without a mask

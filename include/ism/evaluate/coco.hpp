@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "ism/core/nearest_name.hpp"
@@ -18,6 +20,7 @@
 #include "ism/evaluate/evaluate.hpp"
 #include "ism/evaluate/figures_json.hpp"
 #include "ism/io/paths.hpp"
+#include "ism/train/describe_object.hpp"
 
 namespace ism {
 
@@ -129,19 +132,111 @@ template <MatchRule R>
     return detail::with_rule(options, [&](const auto& rule) { return evaluate(dataset, results, rule); });
 }
 
+namespace detail {
+
+/// Images by the order of their numbers, as the official evaluation of COCO takes them.
+class CocoOrder {
+public:
+    explicit CocoOrder(const Dataset& dataset) : dataset_(dataset) {
+        for (const DatasetImage& image : dataset.images) place_[image.id];
+        for (std::size_t next = 0; auto& [id, where] : place_) where = next++;
+    }
+    /// Objects or detections whose images are counted so.
+    template <class Object>
+    [[nodiscard]] std::vector<Object> ordered(std::vector<Object> objects) const {
+        for (Object& object : objects) object.image = place_.at(dataset_.images[object.image].id);
+        return objects;
+    }
+
+private:
+    const Dataset& dataset_;
+    std::map<std::int64_t, std::size_t> place_;
+};
+
+[[nodiscard]] inline bool has_mask(const DatasetAnnotation& object) {
+    return !std::holds_alternative<std::monostate>(object.segmentation);
+}
+
+/// Overlaps of masks. Those of what was compared last are kept.
+class MaskOverlap {
+public:
+    /// @param truth, found  whose elements are compared
+    MaskOverlap(const Dataset& dataset, std::span<const Result> results, const DatasetTruth& truth,
+                std::span<const FoundObject> found, std::span<const TruthObject> objects)
+        : dataset_(dataset), results_(results), truth_(truth), found_(found), objects_(objects) {}
+
+    [[nodiscard]] double operator()(const FoundObject& found, const TruthObject& object) const {
+        const auto f = std::size_t(&found - found_.data()), t = std::size_t(&object - objects_.data());
+        if (!results_[f].segmentation) return 0;
+        if (last_found_ != f) found_mask_ = decompress_mask(*results_[f].segmentation), last_found_ = f;
+        if (!masks_.contains(t)) {
+            if (last_image_ != truth_.where[t].first) masks_.clear();
+            last_image_ = truth_.where[t].first;
+            masks_[t] = mask_of(t);
+        }
+        return object.ignore ? share_in_mask(found_mask_, masks_[t]) : mask_iou(found_mask_, masks_[t]);
+    }
+
+private:
+    /// Of what is ignored and has no mask, a difficult object or the rest of an image, all of its box.
+    [[nodiscard]] Mask mask_of(std::size_t t) const {
+        const auto [i, annotation] = truth_.where[t];
+        const DatasetImage& image = dataset_.images[i];
+        if (annotation == image.objects.size() || !has_mask(image.objects[annotation]))
+            return object_mask({.box = objects_[t].box}, image.width, image.height);
+        return read_mask(image, image.objects[annotation]);
+    }
+    [[nodiscard]] static double share_in_mask(const Mask& found, const Mask& crowd) {
+        std::size_t all = 0, inside = 0;
+        for (std::size_t i = 0; i < found.pixels().size(); ++i) {
+            all += found.pixels()[i] != 0;
+            inside += found.pixels()[i] != 0 && crowd.pixels()[i] != 0;
+        }
+        return all > 0 ? double(inside) / double(all) : 0;
+    }
+
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    const Dataset& dataset_;
+    std::span<const Result> results_;
+    const DatasetTruth& truth_;
+    std::span<const FoundObject> found_;
+    std::span<const TruthObject> objects_;
+    mutable std::size_t last_found_ = none, last_image_ = none;
+    mutable Mask found_mask_;
+    mutable std::map<std::size_t, Mask> masks_;  // of objects of the last image
+};
+
+}  // namespace detail
+
 /// @brief Measures the boxes of results against a data set as the official evaluation of COCO does: images
 /// come in the order of their numbers, crowds are ignored.
 /// @throws Error as above.
 [[nodiscard]] inline CocoEvaluation evaluate_coco(const Dataset& dataset, std::span<const Result> results) {
-    std::map<std::int64_t, std::size_t> place;
-    for (const DatasetImage& image : dataset.images) place[image.id];
-    for (std::size_t next = 0; auto& [id, where] : place) where = next++;
-    const auto put = [&](auto objects) {
-        for (auto& object : objects) object.image = place[dataset.images[object.image].id];
-        return objects;
-    };
-    return evaluate_coco(put(detail::truth_of(dataset).objects), put(detail::found_in(dataset, results)),
-                         dataset.images.size(), dataset.class_names);
+    const detail::CocoOrder order(dataset);
+    return evaluate_coco(order.ordered(detail::truth_of(dataset).objects),
+                         order.ordered(detail::found_in(dataset, results)), dataset.images.size(),
+                         dataset.class_names);
+}
+
+/// @brief Measures the masks of results in the same way (the official evaluation's iouType "segm"). A result
+/// without a mask overlaps nothing.
+/// @throws Error as above, where an object that is not ignored is labelled by a box alone, and where no
+/// result has a mask.
+[[nodiscard]] inline CocoEvaluation evaluate_coco_masks(const Dataset& dataset,
+                                                        std::span<const Result> results) {
+    const detail::DatasetTruth truth = detail::truth_of(dataset);
+    for (const DatasetImage& image : dataset.images)
+        for (const DatasetAnnotation& object : image.objects)
+            expect(object.crowd || detail::has_mask(object), lazy_text("label of ", file_text(image.file)),
+                   "a mask, to measure masks", "a box alone");
+    const auto is_cut_out = [](const Result& result) { return result.segmentation.has_value(); };
+    expect(results.empty() || std::any_of(results.begin(), results.end(), is_cut_out), "results",
+           "masks (segmentation)", "boxes alone");
+    const detail::CocoOrder order(dataset);
+    const std::vector<TruthObject> objects = order.ordered(truth.objects);
+    const std::vector<FoundObject> found = order.ordered(detail::found_in(dataset, results));
+    return evaluate_coco(objects, found, dataset.images.size(), dataset.class_names,
+                         detail::MaskOverlap(dataset, results, truth, found, objects));
 }
 
 }  // namespace ism

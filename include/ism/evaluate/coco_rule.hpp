@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "ism/core/callable.hpp"
 #include "ism/core/order.hpp"
 #include "ism/evaluate/evaluate.hpp"
 
@@ -50,6 +51,16 @@ inline constexpr std::array<double, 10> coco_thresholds = [] {
 /// @brief Detections of an image and class that count, the best ones.
 inline constexpr std::size_t coco_max_detections = 100;
 
+/// @brief How much a detection overlaps an object, 0 … 1: the IoU, and of what is ignored the part of the
+/// detection that lies in it.
+template <class F>
+concept CocoOverlap = Callable<F, const FoundObject&, const TruthObject&>;
+
+/// @brief That of their boxes.
+[[nodiscard]] inline double coco_box_overlap(const FoundObject& found, const TruthObject& truth) {
+    return truth.ignore ? detail::share_inside(found.box, truth.box) : iou(found.box, truth.box);
+}
+
 namespace detail {
 
 /// The objects and detections of one class in one image: crowds last, best score first.
@@ -64,19 +75,15 @@ struct CocoVerdicts {
     std::array<Verdict, coco_thresholds.size()> at{};
 };
 
-/// IoU; of a crowd, the part of the detection that lies in it.
-[[nodiscard]] inline double coco_overlap(const FoundObject& found, const TruthObject& truth) {
-    return truth.ignore ? share_inside(found.box, truth.box) : iou(found.box, truth.box);
-}
-
 /// The detections of one image: best score first each takes the object that overlaps most and is still free,
 /// of equal ones the last; where there is none, any crowd.
-[[nodiscard]] inline std::vector<CocoVerdicts> coco_match(const CocoImage& image) {
+template <CocoOverlap Overlap>
+[[nodiscard]] std::vector<CocoVerdicts> coco_match(const CocoImage& image, const Overlap& overlap) {
     std::vector<CocoVerdicts> verdicts;
     std::vector<double> overlaps;
     for (const FoundObject* found : image.found) {
         verdicts.push_back({found->score});
-        for (const TruthObject* truth : image.truth) overlaps.push_back(coco_overlap(*found, *truth));
+        for (const TruthObject* truth : image.truth) overlaps.push_back(overlap(*found, *truth));
     }
     const std::size_t objects = image.truth.size();
     for (std::size_t t = 0; t < coco_thresholds.size(); ++t) {
@@ -120,7 +127,8 @@ struct CocoVerdicts {
     return {sum / 101, recall.empty() ? 0 : recall.back()};
 }
 
-[[nodiscard]] inline CocoClass coco_class(std::span<CocoImage> images, std::string name) {
+template <CocoOverlap Overlap>
+[[nodiscard]] CocoClass coco_class(std::span<CocoImage> images, std::string name, const Overlap& overlap) {
     CocoClass result;
     result.name = std::move(name);
     std::vector<CocoVerdicts> verdicts;
@@ -129,7 +137,7 @@ struct CocoVerdicts {
         sort_by(image.found, [](const FoundObject* o) { return falling(o->score); });
         image.found.resize(std::min(image.found.size(), coco_max_detections));
         for (const TruthObject* truth : image.truth) result.objects += !truth->ignore;
-        for (const CocoVerdicts& one : coco_match(image)) {
+        for (const CocoVerdicts& one : coco_match(image, overlap)) {
             verdicts.push_back(one);
             result.detections += one.at[0] != Verdict::ignored;
         }
@@ -151,13 +159,15 @@ struct CocoVerdicts {
 }  // namespace detail
 
 /// @brief Measures what was found in `image_count` images as the official evaluation of COCO does (Lin,
-/// Maire, Belongie and others 2014; its program pycocotools, boxes of any area): ten IoU thresholds, the
+/// Maire, Belongie and others 2014; its program pycocotools, objects of any area): ten IoU thresholds, the
 /// precision at 101 recalls, at most 100 detections of a class in an image. Of equal scores that of the image
 /// of the lower index counts first.
+/// @param overlap  of elements of `found` and `truth`
 /// @throws Error where an index of an image or class is too large, or a score or box is not finite.
-[[nodiscard]] inline CocoEvaluation evaluate_coco(std::span<const TruthObject> truth,
-                                                  std::span<const FoundObject> found, std::size_t image_count,
-                                                  std::span<const std::string> class_names) {
+template <CocoOverlap Overlap>
+[[nodiscard]] CocoEvaluation evaluate_coco(std::span<const TruthObject> truth,
+                                           std::span<const FoundObject> found, std::size_t image_count,
+                                           std::span<const std::string> class_names, const Overlap& overlap) {
     detail::check_indices(truth, found, image_count, class_names.size());
     for (const FoundObject& f : found) check(f);
     CocoEvaluation result;
@@ -168,12 +178,19 @@ struct CocoVerdicts {
             if (t.class_index == c) images[t.image].truth.push_back(&t);
         for (const FoundObject& f : found)
             if (f.class_index == c) images[f.image].found.push_back(&f);
-        result.classes.push_back(detail::coco_class(images, class_names[c]));
+        result.classes.push_back(detail::coco_class(images, class_names[c], overlap));
         const CocoFigures& figures = result.classes.back().figures;
         ap.add(figures.ap), ap50.add(figures.ap50), ap75.add(figures.ap75), recall.add(figures.recall);
     }
     result.mean = {ap.value(), ap50.value(), ap75.value(), recall.value()};
     return result;
+}
+
+/// @brief The same of boxes.
+[[nodiscard]] inline CocoEvaluation evaluate_coco(std::span<const TruthObject> truth,
+                                                  std::span<const FoundObject> found, std::size_t image_count,
+                                                  std::span<const std::string> class_names) {
+    return evaluate_coco(truth, found, image_count, class_names, coco_box_overlap);
 }
 
 }  // namespace ism
