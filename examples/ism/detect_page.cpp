@@ -6,6 +6,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "input.hpp"
+
 #include "ism/evaluate/coco.hpp"
 #include "ism/evaluate/plot.hpp"
 
@@ -18,18 +20,6 @@ constexpr std::size_t most_mistakes = 36, most_named = 300;
 
 std::uint32_t index_of(const std::vector<std::string>& names, const std::string& name) {
     return std::uint32_t(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-/// Takes the folder that all names have in common off them.
-/// @return that folder; empty where there is none, or one name
-std::string take_folder(std::vector<std::string>& names) {
-    if (names.size() < 2) return {};
-    std::string folder = names[0].substr(0, names[0].rfind('/') + 1);
-    for (const std::string& name : names)
-        while (!name.starts_with(folder))
-            folder.resize(folder.size() < 2 ? 0 : folder.rfind('/', folder.size() - 2) + 1);
-    for (std::string& name : names) name.erase(0, folder.size());
-    return folder;
 }
 
 /// Without crowds.

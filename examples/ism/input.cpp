@@ -76,6 +76,16 @@ std::vector<std::string> short_names(const ism::Dataset& dataset) {
     return names;
 }
 
+std::string take_folder(std::vector<std::string>& names) {
+    if (names.size() < 2) return {};
+    std::string folder = names[0].substr(0, names[0].rfind('/') + 1);
+    for (const std::string& name : names)
+        while (!name.starts_with(folder))
+            folder.resize(folder.size() < 2 ? 0 : folder.rfind('/', folder.size() - 2) + 1);
+    for (std::string& name : names) name.erase(0, folder.size());
+    return folder;
+}
+
 std::size_t check_images(ism::Dataset& dataset, unsigned threads, bool skip_bad,
                          const std::function<void(ism::DatasetImage&)>& read) {
     const std::size_t count = dataset.images.size();

@@ -34,6 +34,9 @@ template <class Texts>
 [[nodiscard]] std::string short_name(const ism::Dataset& dataset, const ism::DatasetImage& image);
 /// The names of all its images.
 [[nodiscard]] std::vector<std::string> short_names(const ism::Dataset& dataset);
+/// Takes the folder that all names have in common off them.
+/// @return that folder; empty where there is none, or one name
+[[nodiscard]] std::string take_folder(std::vector<std::string>& names);
 
 /// Names what is wrong on stderr, up to 20 lines and a count.
 /// @throws ism::Error where there is something and `skip_bad` is not given; what is alone wrong is its

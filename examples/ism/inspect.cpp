@@ -182,7 +182,7 @@ ism::ReportFigure crop_figure(const ism::Dataset& dataset, std::size_t i, std::s
     return figure;
 }
 
-/// How many objects there are of each size: a bar for each factor of √2.
+/// How many objects there are of each size: a bar for each factor of √2, under its number.
 std::string size_plot(const std::vector<Example>& examples, ism::Rgb color) {
     constexpr std::size_t bars = 15;  // 8 … 1024 px
     std::array<std::size_t, bars> counts{};
@@ -195,10 +195,12 @@ std::string size_plot(const std::vector<Example>& examples, ism::Rgb color) {
         "<svg class=\"plot\" viewBox=\"0 0 340 120\" width=\"340\" height=\"120\" role=\"img\" "
         "aria-label=\"how large the objects are\" font-size=\"12\">";
     for (std::size_t i = 0; i < bars; ++i) {
-        const double height = 80 * double(counts[i]) / double(most);
+        const double height = 76 * double(counts[i]) / double(most);
         svg += "<path d=\"" + ism::detail::rectangle_path({20 + 20.0 * double(i), 90 - height, 18, height}) +
-               "\" style=\"stroke:none;fill:" + ism::hex_color(color) + "\"><title>" +
-               std::to_string(counts[i]) + "</title></path>";
+               "\" style=\"stroke:none;fill:" + ism::hex_color(color) + "\"/>";
+        if (counts[i] > 0)
+            svg += ism::detail::svg_text(29 + 20.0 * double(i), 87 - height, std::to_string(counts[i]),
+                                         "text-anchor=\"middle\" font-size=\"10\"");
         if (i % 2 == 0)
             svg += ism::detail::svg_text(20 + 20.0 * double(i), 105, std::to_string(8u << (i / 2)),
                                          "text-anchor=\"middle\"");
@@ -216,6 +218,10 @@ ism::Report page_of(const ism::Dataset& dataset, const Contents& contents,
     report.legend = ism::detection_legend(dataset.class_names, false);
     report.layers = {{"found", "boxes"}, {"mask", "masks"}};
 
+    std::vector<std::string> names = short_names(dataset);
+    if (std::string folder = take_folder(names); !folder.empty())
+        report.summary.emplace_back("folder", std::move(folder));
+
     ism::ReportSection wrong{.title = "What looks wrong"};
     for (const std::string& remark : contents.of_set) wrong.parts.push_back(ism::ReportText{remark});
     std::size_t crops = 0;
@@ -224,7 +230,7 @@ ism::Report page_of(const ism::Dataset& dataset, const Contents& contents,
         ism::ReportGallery gallery;
         ism::ReportTable texts{.header = {"image", "what"}};
         for (const Placed& one : remarks) {
-            const std::string name = short_name(dataset, dataset.images[one.image]);
+            const std::string& name = names[one.image];
             if (texts.rows.size() < texts_a_kind) texts.rows.push_back({name, one.remark.text});
             if (kind == "file that cannot be used" || gallery.figures.size() >= crops_a_kind ||
                 crops >= most_faults)
@@ -250,14 +256,16 @@ ism::Report page_of(const ism::Dataset& dataset, const Contents& contents,
     const std::size_t each =
         std::clamp<std::size_t>(most_crops / std::max<std::size_t>(1, examples.size()), 1, 10);
     for (std::size_t c = 0; c < examples.size(); ++c) {
+        if (examples[c].empty()) continue;
         ism::ReportSection section{.title = dataset.class_names[c], .folded = c >= most_crops};
         ism::ReportGallery gallery;
         const std::size_t shown = c < most_crops ? std::min(each, examples[c].size()) : 0;
         for (std::size_t k = 0; k < shown; ++k) {  // evenly from all
             const Example& one = examples[c][k * examples[c].size() / shown];
-            gallery.figures.push_back(crop_figure(dataset, one.image, one.facts.object,
-                                                  short_name(dataset, dataset.images[one.image])));
+            gallery.figures.push_back(crop_figure(dataset, one.image, one.facts.object, names[one.image]));
         }
+        if (shown < examples[c].size())
+            section.parts.push_back(ism::ReportText{ism::join_text(shown, " of ", examples[c].size(), ":")});
         if (shown > 0) section.parts.push_back(std::move(gallery));
         section.parts.push_back(ism::ReportPlot{size_plot(examples[c], ism::class_color(c))});
         report.sections.push_back(std::move(section));
