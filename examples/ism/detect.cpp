@@ -89,7 +89,14 @@ void check_outputs(const DetectCommand& command, const ImageList& list) {
                 outputs[j].second.empty() || outputs[j].second.lexically_normal() != file.lexically_normal(),
                 option, ism::lazy_text("another file than ", outputs[j].first), "the same");
     }
-    if (!command.report.empty()) check_page(command.report, inputs, command.page);
+    if (command.report.empty()) return;
+    check_page(command.report, inputs, command.page);
+    if (!command.page.link) return;
+    const fs::path pictures = (pictures_folder(command.report) / "").lexically_normal();
+    for (const fs::path& folder :
+         {command.overlay_folder, command.results.parent_path(), command.json.parent_path()})
+        ism::expect(folder.empty() || (folder / "").lexically_normal() != pictures, "--report-images link",
+                    "other outputs elsewhere than with the pictures of the page", "some there");
 }
 
 void write_output(const fs::path& file, std::string_view text) {
@@ -268,6 +275,7 @@ Outcome search_images(Searcher& searcher, const DetectCommand& command, const De
         if (!frame) {
             outcome.lost[i] = 1;
             if (line != nullptr) told.add(i, "");
+            if (!lines_shown) progress.step("detecting", count);
             return;
         }
         {
@@ -301,7 +309,13 @@ void write_report(Searcher& searcher, const DetectCommand& command, const Detect
     for (const FoundInImage& image : outcome.found) results.push_back(image.results);
     DetectPage page(input.dataset, results, input.model.shapes.class_names, input.names, command.report_most);
     searcher.pool.for_each(page.images().size(), [&](std::size_t k, unsigned worker) {
-        const auto frame = frame_of(input, page.images()[k]);
+        const std::size_t i = page.images()[k];
+        const auto frame = frame_if_there(input, i, command.skip_bad);
+        if (!frame) {  // it is there no more: all grey
+            const FoundInImage& image = outcome.found[i];
+            return page.add(k, ism::RgbImage(image.width, image.height, {128, 128, 128}), {}, report_rows,
+                            command.page);
+        }
         page.add(k, frame->color, searcher.find(*frame, worker, true), report_rows, command.page,
                  input.model.rgbd.empty() ? std::span<const ism::TrainingObject>()
                                           : input.model.rgbd[0].shapes.objects);
@@ -353,12 +367,13 @@ std::string class_at(double factor, Searcher& searcher, ism::Frame frame, const 
 
 /// Where nothing at all was found in metres: whether a depth scale of ten times or a tenth finds something in
 /// the first images.
-void tell_other_scale(Searcher& searcher, const DetectInput& input, const Outcome& outcome) {
+void tell_other_scale(Searcher& searcher, const DetectCommand& command, const DetectInput& input,
+                      const Outcome& outcome) {
     if (outcome.objects() > 0) return;
     std::size_t left = 3;
     for (std::size_t i = 0; i < outcome.found.size() && left > 0; ++i) {
-        const auto frame = frame_of(input, i);
-        if (!searcher.searches_in_metres(*frame)) continue;
+        const auto frame = frame_if_there(input, i, command.skip_bad);
+        if (!frame || !searcher.searches_in_metres(*frame)) continue;
         --left;
         for (const double factor : {0.1, 10.0}) {
             const std::string name = class_at(factor, searcher, *frame, input.model.shapes);
@@ -429,7 +444,7 @@ void run_detect(const DetectCommand& command) {
     write_outcome(command, outcome);
     if (!command.report.empty()) write_report(searcher, command, input, outcome);
     if (is_told(command)) tell_nothing_found(outcome.found);
-    tell_other_scale(searcher, input, outcome);
+    tell_other_scale(searcher, command, input, outcome);
     if (command.images.empty())
         sum_up_data(command, input, outcome, watch.seconds());
     else

@@ -91,7 +91,7 @@ void leave_out_unknown(const ism::Dataset& dataset, std::vector<ism::Result>& re
         dataset.class_names.empty() ? "nothing" : ism::one_line(list_text(dataset.class_names)).c_str());
 }
 
-/// Tells where results end at a probability, as those of ism detect do by default.
+/// Tells where what is improbable may have been left out, as ism detect does by default.
 void tell_end(const std::vector<ism::Result>& results, bool coco) {
     constexpr double none_lower = 0.1;
     if (results.empty()) return;
@@ -101,8 +101,8 @@ void tell_end(const std::vector<ism::Result>& results, bool coco) {
         least = std::min(least, result.probability);
     }
     std::fprintf(stderr,
-                 "ism: note: results end at probability %s: AP and %s count only those; ism detect "
-                 "--min-score 0 tells all\n",
+                 "ism: note: no result is less probable than %s: where ism detect was not asked for all "
+                 "(--min-score 0) AP and %s are too low\n",
                  ism::number_text(least, 2).c_str(), coco ? "recall" : "EER");
 }
 
@@ -128,7 +128,7 @@ void leave_out_bad(ism::Dataset& dataset, std::vector<ism::Result>& results) {
 }  // namespace
 
 void run_evaluate(const EvaluateCommand& command) {
-    ism::expect(!is_standard_output(command.plot), "--plot", "a file", "standard output");
+    ism::expect(command.plot != "-", "--plot", "a file", "standard output");
     for (const auto& output : {command.json, command.plot})
         if (!output.empty() && !is_standard_output(output))
             check_output(output, std::array{command.data, command.detections});
@@ -137,7 +137,7 @@ void run_evaluate(const EvaluateCommand& command) {
     ism::Dataset dataset = read_data(command.data, ism::DatasetPart::test, command.skip_bad);
     check_not_labels(dataset, std::array{command.json, command.plot});
     ism::expect<ism::FileError>(!dataset.class_names.empty(), ism::file_text(command.data),
-                                "classes, as labels name them, to measure", "none");
+                                "labels or a list of classes", "none");
     std::vector<ism::Result> results = read_detections(command.detections);
     if (command.skip_bad) leave_out_bad(dataset, results);
     leave_out_unknown(dataset, results);

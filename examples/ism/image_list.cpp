@@ -128,11 +128,13 @@ void ImageList::leave_out_depth() {
 }
 
 std::vector<fs::path> overlay_files(std::span<const NamedImage> images) {
-    std::set<fs::path> inputs, taken, folders;
+    std::set<fs::path> inputs, places, taken, folders;
+    std::error_code failure;
     for (const NamedImage& image : images) {
         ism::expect<ism::FileError>(image.name != standard_input, "--show", "files to write beside",
                                     "standard input");
         inputs.insert(image.file.lexically_normal());
+        places.insert(fs::canonical(image.file, failure));
     }
     std::vector<fs::path> files;
     for (const NamedImage& image : images) {
@@ -148,7 +150,10 @@ std::vector<fs::path> overlay_files(std::span<const NamedImage> images) {
             !inputs.contains(file.lexically_normal()), "--show",
             ism::lazy_text("no image that is named as what it writes beside '", input.string(), "'"),
             ism::lazy_text("'", file.string(), "'"));
-        if (folders.insert(file.parent_path()).second) check_output(file, {});
+        const bool exists = fs::exists(fs::symlink_status(file, failure));
+        ism::expect<ism::FileError>(!exists || !places.contains(fs::canonical(file, failure)), "--show",
+                                    ism::lazy_text("no link to an image as '", file.string(), "'"), "one");
+        if (exists || folders.insert(file.parent_path()).second) check_output(file, {});
         files.push_back(std::move(file));
     }
     return files;

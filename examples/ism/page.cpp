@@ -25,7 +25,7 @@ constexpr const char* list_name = "made-by-ism.txt";
 std::optional<std::set<std::string>> earlier_pictures(const fs::path& folder, const fs::path& page) {
     std::error_code failure;
     if (!fs::is_regular_file(folder / list_name, failure)) return {};
-    std::istringstream lines(ism::read_text(folder / list_name, 1 << 20));
+    std::istringstream lines(ism::read_text(folder / list_name, std::size_t(1) << 26));
     std::string line;
     std::getline(lines, line);
     if (line != ism::path_to_utf8(page.filename())) return {};
@@ -53,9 +53,10 @@ void check_pictures_folder(const fs::path& page) {
         const std::string name = ism::path_to_utf8(entry.path().filename());
         if (name.starts_with(".")) continue;  // of a file browser, never written over
         if (names && (names->contains(name) || name == list_name)) continue;
-        throw ism::FileError(ism::join_text(
-            "folder '", ism::one_line(folder.string()), "': expected nothing but pictures of an earlier ",
-            ism::file_text(page.filename()), ", got '", ism::one_line(name), "'"));
+        throw ism::FileError(ism::join_text("folder '", ism::one_line(folder.string()),
+                                            "': expected nothing but pictures of an earlier page '",
+                                            ism::one_line(page.filename().string()), "', got '",
+                                            ism::one_line(name), "'"));
     }
 }
 
@@ -85,7 +86,7 @@ fs::path pictures_folder(const fs::path& page) {
 }
 
 void check_page(const fs::path& file, std::span<const fs::path> inputs, const PageOptions& options) {
-    ism::expect(!is_standard_output(file), "--report", "a file", "standard output");
+    ism::expect(file != "-", "--report", "a file", "standard output");
     check_output(file, inputs);
     if (options.link) check_pictures_folder(file);
 }

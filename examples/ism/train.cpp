@@ -77,7 +77,7 @@ void tell_lack_of_depth(const ism::Dataset& dataset) {
     std::vector<bool> shown(dataset.class_names.size(), false);
     for (const std::size_t i : images.usable)
         for (const ism::DatasetAnnotation& object : dataset.images[i].objects)
-            shown[object.class_index] = true;
+            if (!object.crowd) shown[object.class_index] = true;
     std::vector<std::string> lacking;
     for (std::size_t c = 0; c < shown.size(); ++c)
         if (!shown[c]) lacking.push_back(ism::one_line(dataset.class_names[c]));

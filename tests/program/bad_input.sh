@@ -148,7 +148,7 @@ $line "file 'other.json': result 0: image_id: expected an image of data set 'toy
     "$ism" evaluate --data toys/test.json --detections other.json
 $line "expected an array of results, as ism detect -o writes it, got labels" \
     "$ism" evaluate --data toys/test.json --detections toys/test.json
-refused "file 'toys/test': expected classes, as labels name them, to measure, got none" \
+refused "file 'toys/test': expected labels or a list of classes, got none" \
     "$ism" evaluate --data toys/test --detections toys/detections-jism.json
 "$ism" detect --model $model toys/test/test-0000.png --json lines.json 2>/dev/null
 $line "file 'lines.json': expected an array of results, as ism detect -o writes it, got an object" \
@@ -176,3 +176,14 @@ chmod 600 protected.json
 "$ism" detect --model $model toys/test/test-0000.png -o protected.json >/dev/null 2>&1
 [[ $(stat -c %a protected.json) == 600 ]] || fail "a private file has other permissions than before"
 $line "--iou: expected a number, above 0, at most 1, got '0'" "$ism" evaluate --data toys/test.json --detections toys/detections-jism.json --iou 0
+
+# What --show would write through a link to a photo, and what would lie among the pictures of a page.
+mkdir linked
+cp toys/test/test-0000.png linked/a.png
+cp toys/test/test-0001.png linked/photo.png
+ln -s photo.png linked/a.ism.png
+refused_in_a_line "--show: expected no link to an image as 'linked/a.ism.png', got one" \
+    "$ism" detect --model $model linked/a.png linked/photo.png --show
+cmp linked/photo.png toys/test/test-0001.png || fail "--show wrote over a photo"
+refused_in_a_line "--report-images link: expected other outputs elsewhere" \
+    "$ism" detect --model $model linked/a.png --report out.html --report-images link --overlay out-images

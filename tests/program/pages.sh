@@ -29,7 +29,7 @@ says 'href="linked%20%231-images/1.jpg"' "linked #1.html"
 mkdir trip-images
 cp toys/test/test-0000.png trip-images/1.png
 for page in trip.html "linked #1"; do  # the second would share the folder of "linked #1.html"
-    refused_in_a_line "expected nothing but pictures of an earlier file '$page', got '" \
+    refused_in_a_line "expected nothing but pictures of an earlier page '$page', got '" \
         "$ism" detect --model $model --data toys/test.json -o out --report "$page" --report-images link
 done
 refused_in_a_line "folder 'trip-images': expected nothing but" \

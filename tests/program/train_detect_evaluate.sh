@@ -33,8 +33,8 @@ says "mean " figures.txt
 says '"best_f1"' figures.json
 says "<svg" pr.svg
 "$ism" evaluate --data toys/test.json --detections found-1 --rule uiuc >uiuc.txt 2>note.txt
-says "ism: note: results end at probability 0." note.txt
-says ": AP and EER count only those; ism detect --min-score 0 tells all" note.txt
+says "ism: note: no result is less probable than 0." note.txt
+says " AP and EER are too low" note.txt
 "$ism" detect --model model-1 --data toys/test.json -o all-1 --min-score 0 >/dev/null 2>&1
 "$ism" evaluate --data toys/test.json --detections all-1 >/dev/null 2>note.txt
 [[ ! -s note.txt ]] || fail "all is told, and yet: $(cat note.txt)"

@@ -24,6 +24,7 @@ for word in program clang formats benchmarks bridges bridge-tests pages; do
     [[ $word == bridge-tests ]] || "$install" "$word" || fail "install_dependencies $word"
 done
 [[ ! -e apt.txt ]] || fail "install_dependencies: expected all to be installed, got: $(cat apt.txt)"
+says "scripts/install_dependencies packages " help.txt
 "$install" packages >packages.txt
 says "installing dpkg-dev file" packages.txt
 grep -q 'install .* dpkg-dev file$' apt.txt || fail "install_dependencies packages: expected to install them, got: $(cat apt.txt)"

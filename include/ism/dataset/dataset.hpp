@@ -65,7 +65,7 @@ struct Dataset {
     std::vector<DatasetImage> images = {};
     bool classes_listed = true;      ///< false: class_names are those that labels name; there may be more
     std::size_t depth_left_out = 0;  ///< grey PNG of 16 bits among the pictures of a folder: they are depth
-    std::string part = {};           ///< of a set with several, as its file or folder names it: "train"
+    std::string part = {};  ///< that was read of a set of parts, as its file or folder names it: "train"
 };
 
 /// @brief Where an image may show objects that its labels do not tell: the boxes of crowds, and all of it

@@ -19,7 +19,7 @@ struct YoloPlaces {
     std::filesystem::path root;
     std::vector<std::string> names;
     std::vector<std::filesystem::path> images;
-    std::string part = {};  ///< which of several was asked for; empty where there is one
+    std::string part = {};  ///< that is read, as the file or folder names it; empty where nothing names it
 };
 
 /// @brief Calls `use` for each line that is not empty; U+FEFF, which some editors put first, is no part of

@@ -60,11 +60,11 @@ public:
     }
 
 private:
-    /// The sample at so many pixels from where the box begins, which has this side.
+    /// The sample that lies so many pixels from the edge of the box, whose side this is …
     [[nodiscard]] static float sample_of(double px, double side) {
         return float((px / (side / exemplar_cells) + ExemplarPrior::margin) * ExemplarPrior::samples - 0.5);
     }
-    /// … and back.
+    /// … and how many pixels that are.
     [[nodiscard]] static double offset_px(int sample, double side) {
         return ((sample + 0.5) / ExemplarPrior::samples - ExemplarPrior::margin) * (side / exemplar_cells);
     }

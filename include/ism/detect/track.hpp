@@ -22,7 +22,7 @@ struct TrackerOptions {
     double max_distance_m = 0.1;    ///< an object is not found farther from where it is thought to be
     double min_iou = 0.3;           ///< … or, without positions, with boxes that overlap less
     std::size_t birth_hits = 3;     ///< frames in which it has to be found before it is told
-    std::size_t max_misses = 5;     ///< frames in a row in which it may be missed, or only its position
+    std::size_t max_misses = 5;     ///< frames in a row in which it, or its position alone, may be missing
     double drift_m = 0.003;         ///< how far an object may move from frame to frame, standard deviation
     double least_error_m = 0.003;   ///< no position is trusted more
     double unknown_error_m = 0.03;  ///< what a position may be off by that does not tell

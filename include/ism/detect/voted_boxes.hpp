@@ -119,7 +119,7 @@ public:
         return (own + 0.1) / (all + 0.2);
     }
 
-    /// @brief Keeps every so manyth vote of a class at so many times its weight, for the memory that they
+    /// @brief Keeps one in `step` votes of a class, at `step` times its weight, for the memory that they
     /// take: enough for sums over many votes.
     void thin(std::uint32_t class_index, std::size_t step) {
         std::size_t passed = step / 2;  // since the last that was kept

@@ -157,7 +157,7 @@ private:
     return !std::holds_alternative<std::monostate>(object.segmentation);
 }
 
-/// Overlaps of masks. Those of what was compared last are kept.
+/// Overlaps of masks. The masks compared last are kept.
 class MaskOverlap {
 public:
     /// @param truth, found  whose elements are compared

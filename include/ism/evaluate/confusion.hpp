@@ -53,8 +53,8 @@ struct Confusion {
 
 /// @brief The confusion matrix of images that hold one object each; the predicted class is
 /// that of the detection with the best score, wherever it lies. Where several classes share the best score it
-/// is one of the wrong ones, that of the lowest index: who cannot tell them apart is not right by the order
-/// of a file.
+/// is one of the wrong ones, that of the lowest index, so that the order of a file never makes a detection
+/// right.
 /// @throws Error where an image holds more or less than one object, or an index is too large.
 [[nodiscard]] inline Confusion confusion(std::span<const TruthObject> truth,
                                          std::span<const FoundObject> found, std::size_t image_count,

@@ -30,7 +30,7 @@ namespace detail {
     return curve;
 }
 
-/// The mean over classes of the best precision at each recall, or a larger one.
+/// The mean over classes of the best precision at each recall or any higher one.
 [[nodiscard]] inline PlotCurve mean_curve(std::span<const ClassEvaluation* const> classes, double mean_ap) {
     PlotCurve curve{
         .name = join_text("AP ", percent_text(mean_ap), " %, mean of ", classes.size(), " classes"),

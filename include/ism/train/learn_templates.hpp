@@ -82,7 +82,7 @@ namespace detail {
     return views;
 }
 
-/// Votes of an image that are kept for judges: 15 MB. A photograph of 10 megapixels has millions.
+/// Votes of an image that are kept for judges, at most: 12 MB. A photograph of 10 megapixels has millions.
 inline constexpr std::size_t most_kept_votes = 500000;
 
 /// The training images with the hypotheses that their objects' own votes had no part in.
@@ -114,7 +114,8 @@ inline constexpr std::size_t most_kept_votes = 500000;
                 images[i].proposals.push_back({guess.class_index, guess.box});
         images[i].asked = asked_proposals(images[i].proposals, votes, asked_classes, model.shapes);
         images[i].voted = VotedBoxes(votes, scene.features, model.shapes);
-        const std::size_t step = 1 + votes.size() / most_kept_votes;
+        const std::size_t step =
+            std::max<std::size_t>(1, (votes.size() + most_kept_votes - 1) / most_kept_votes);
         for (std::uint32_t c = 0; c < classes; ++c) {
             if (left_out[c][i]) images[i].asked[c] = {};
             if (const std::size_t own = left_out[c][i] ? 64 * step : step; own > 1)
