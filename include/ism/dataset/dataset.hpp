@@ -39,6 +39,8 @@ struct DatasetAnnotation {
     std::string instance =
         {};  ///< which thing of the class it is, where that is known: the same in each image
     std::optional<Point3> position_m = {};  ///< of its middle in the camera frame, where it was measured
+    /// @brief Whether it is labelled with a mask, too.
+    [[nodiscard]] bool masked() const { return !std::holds_alternative<std::monostate>(segmentation); }
     [[nodiscard]] bool operator==(const DatasetAnnotation&) const = default;
 };
 
@@ -82,7 +84,7 @@ struct Dataset {
 /// @throws FileError, naming the image and the annotation, where the mask is of another size, damaged, or
 /// without a figure pixel.
 [[nodiscard]] inline Mask read_mask(const DatasetImage& image, const DatasetAnnotation& annotation) {
-    if (std::holds_alternative<std::monostate>(annotation.segmentation)) return {};
+    if (!annotation.masked()) return {};
     return at_place(join_text(file_text(image.file), ", annotation ", annotation.id), [&] {
         Mask mask;
         if (const auto* packed = std::get_if<CompressedRle>(&annotation.segmentation)) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "ism/core/frame.hpp"
@@ -17,9 +16,8 @@ namespace ism {
     std::vector<ObjectLabel> labels;
     for (const DatasetAnnotation& object : image.objects)
         if (!object.crowd)
-            labels.push_back({.class_index = object.class_index,
-                              .box = object.box,
-                              .masked = !std::holds_alternative<std::monostate>(object.segmentation)});
+            labels.push_back(
+                {.class_index = object.class_index, .box = object.box, .masked = object.masked()});
     return labels;
 }
 

@@ -14,7 +14,6 @@
 #include <set>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "ism/dataset/image_files.hpp"
 #include "ism/dataset/labelme_shape.hpp"
@@ -65,8 +64,7 @@ inline void add_labelme_image(const Json& root, const std::filesystem::path& pat
             DatasetAnnotation object = labelme_object(record, image, place);
             object.class_index = classes.emplace(label, std::uint32_t(classes.size())).first->second;
             const Json* group = optional_member(record, "group_id", place);
-            if (group == nullptr || std::holds_alternative<std::monostate>(object.segmentation))
-                return image.objects.push_back(std::move(object));
+            if (group == nullptr || !object.masked()) return image.objects.push_back(std::move(object));
             // Shapes of one group are parts of one object.
             const auto [at, first] =
                 group_of.emplace(std::pair(object.class_index, group->dump()), image.objects.size());

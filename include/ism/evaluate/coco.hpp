@@ -10,7 +10,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "ism/core/nearest_name.hpp"
@@ -153,16 +152,12 @@ private:
     std::map<std::int64_t, std::size_t> place_;
 };
 
-[[nodiscard]] inline bool has_mask(const DatasetAnnotation& object) {
-    return !std::holds_alternative<std::monostate>(object.segmentation);
-}
-
 /// Overlaps of masks. The masks compared last are kept.
-class MaskOverlap {
+class CutOutOverlap {
 public:
     /// @param truth, found  whose elements are compared
-    MaskOverlap(const Dataset& dataset, std::span<const Result> results, const DatasetTruth& truth,
-                std::span<const FoundObject> found, std::span<const TruthObject> objects)
+    CutOutOverlap(const Dataset& dataset, std::span<const Result> results, const DatasetTruth& truth,
+                  std::span<const FoundObject> found, std::span<const TruthObject> objects)
         : dataset_(dataset), results_(results), truth_(truth), found_(found), objects_(objects) {}
 
     [[nodiscard]] double operator()(const FoundObject& found, const TruthObject& object) const {
@@ -182,7 +177,7 @@ private:
     [[nodiscard]] Mask mask_of(std::size_t t) const {
         const auto [i, annotation] = truth_.where[t];
         const DatasetImage& image = dataset_.images[i];
-        if (annotation == image.objects.size() || !has_mask(image.objects[annotation]))
+        if (annotation == image.objects.size() || !image.objects[annotation].masked())
             return object_mask({.box = objects_[t].box}, image.width, image.height);
         return read_mask(image, image.objects[annotation]);
     }
@@ -227,7 +222,7 @@ private:
     const detail::DatasetTruth truth = detail::truth_of(dataset);
     for (const DatasetImage& image : dataset.images)
         for (const DatasetAnnotation& object : image.objects)
-            expect(object.crowd || detail::has_mask(object), lazy_text("label of ", file_text(image.file)),
+            expect(object.crowd || object.masked(), lazy_text("label of ", file_text(image.file)),
                    "a mask, to measure masks", "a box alone");
     const auto is_cut_out = [](const Result& result) { return result.segmentation.has_value(); };
     expect(results.empty() || std::any_of(results.begin(), results.end(), is_cut_out), "results",
@@ -236,7 +231,7 @@ private:
     const std::vector<TruthObject> objects = order.ordered(truth.objects);
     const std::vector<FoundObject> found = order.ordered(detail::found_in(dataset, results));
     return evaluate_coco(objects, found, dataset.images.size(), dataset.class_names,
-                         detail::MaskOverlap(dataset, results, truth, found, objects));
+                         detail::CutOutOverlap(dataset, results, truth, found, objects));
 }
 
 }  // namespace ism
