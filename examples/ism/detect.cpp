@@ -83,7 +83,7 @@ void check_outputs(const DetectCommand& command, const ImageList& list) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const auto& [option, file] = outputs[i];
         if (file.empty()) continue;
-        if (i < 2 && file != "-") check_output(file, inputs);
+        if (file != "-") check_output(file, inputs);
         for (std::size_t j = 0; j < i; ++j)
             ism::expect(
                 outputs[j].second.empty() || outputs[j].second.lexically_normal() != file.lexically_normal(),

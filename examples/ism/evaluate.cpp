@@ -92,12 +92,12 @@ void leave_out_unknown(const ism::Dataset& dataset, std::vector<ism::Result>& re
 }
 
 /// Tells where what is improbable may have been left out, as ism detect does by default.
-void tell_end(const std::vector<ism::Result>& results, bool coco) {
-    constexpr double none_lower = 0.1;
+void tell_if_cut(const std::vector<ism::Result>& results, bool coco) {
+    constexpr double improbable = 0.1;
     if (results.empty()) return;
     double least = 1;
     for (const ism::Result& result : results) {
-        if (!(result.probability >= none_lower)) return;  // or not known
+        if (!(result.probability >= improbable)) return;  // or not known
         least = std::min(least, result.probability);
     }
     std::fprintf(stderr,
@@ -142,7 +142,7 @@ void run_evaluate(const EvaluateCommand& command) {
     if (command.skip_bad) leave_out_bad(dataset, results);
     leave_out_unknown(dataset, results);
     const auto tell = [&](const auto& evaluation) {
-        tell_end(results, command.coco);
+        tell_if_cut(results, command.coco);
         const std::string json = figures_json(command, dataset, ism::detail::json_of(evaluation));
         if (is_standard_output(command.json)) {
             std::fputs(json.c_str(), stdout);

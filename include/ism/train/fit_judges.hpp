@@ -53,7 +53,7 @@ struct FittedJudges {
 /// Fits templates and what judges their boxes to all images, and side by side to all but each fold, the
 /// judges of which then judge boxes on its images. It goes over the images in a few rounds, in each of which
 /// the pyramid of an image serves all who have to see it: first boxes are described, then negatives are
-/// mined, for folds one round less than for all, and in the round after their last the folds' judges judge.
+/// mined, for folds in one round at most, and in the round after their last the folds' judges judge.
 class JudgeFitter {
 public:
     /// @param model  with words, figures and typical sizes; this, and images, have to stay as long as this
